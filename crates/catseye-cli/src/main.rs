@@ -1,0 +1,2 @@
+//! The `catseye` command.
+fn main() {}

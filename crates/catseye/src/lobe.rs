@@ -1,0 +1,70 @@
+//! The interface that all lobes share. The contract is stated in the crate's documentation.
+
+use crate::{Real, Vec3};
+
+/// What produced a sampled direction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum LobeKind {
+    /// Single scattering by a rough reflector.
+    Single,
+    /// The multiple-scattering compensation.
+    Multiple,
+    /// A perfect reflector: a Dirac distribution that only `sample` can meet.
+    Dirac,
+}
+
+impl LobeKind {
+    /// The name used in CSV output: `single`, `multiple` or `dirac`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Single => "single",
+            Self::Multiple => "multiple",
+            Self::Dirac => "dirac",
+        }
+    }
+}
+
+/// A sampled direction and what a Monte Carlo estimator needs to know of it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Sample<T> {
+    /// The sampled direction, unit length, pointing away from the surface.
+    pub wi: Vec3<T>,
+    /// `eval(wo, wi) * wi.z / pdf` per channel; for a Dirac lobe the reflected share of the energy.
+    pub weight: [T; 3],
+    /// Density of `wi` per steradian, equal to `pdf(wo, wi)`; 1 for a Dirac lobe.
+    pub pdf: T,
+    /// What the direction came from.
+    pub lobe: LobeKind,
+}
+
+/// A BSDF lobe in the local frame.
+pub trait Lobe<T: Real> {
+    /// The BSDF f(wo, wi) in 1/sr per channel, cosine not included. 0 below the horizon and for a Dirac lobe.
+    #[must_use]
+    fn eval(&self, wo: Vec3<T>, wi: Vec3<T>) -> [T; 3];
+
+    /// Density, per steradian, with which [`Lobe::sample`] chooses `wi`. 0 below the horizon and for a Dirac lobe.
+    #[must_use]
+    fn pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> T;
+
+    /// `eval` and `pdf` at once, for less than their sum.
+    #[must_use]
+    #[inline]
+    fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> ([T; 3], T) {
+        (self.eval(wo, wi), self.pdf(wo, wi))
+    }
+
+    /// A direction chosen by three uniform numbers in `[0, 1)`; `None` if `wo` is below the horizon or not a
+    /// direction.
+    #[must_use]
+    fn sample(&self, wo: Vec3<T>, u: [T; 3]) -> Option<Sample<T>>;
+
+    /// Share of the energy arriving along `wo` that is reflected, per channel, in `[0, 1]`. 0 below the horizon.
+    #[must_use]
+    fn albedo(&self, wo: Vec3<T>) -> [T; 3];
+
+    /// Whether the lobe is a Dirac distribution, which only `sample` can meet.
+    #[must_use]
+    fn is_dirac(&self) -> bool;
+}
