@@ -1,5 +1,60 @@
-//! Reads MaterialX documents into closure trees.
+//! Reads [MaterialX](https://materialx.org) documents into closure trees.
+//!
+//! [`Document::load`] reads a file, [`Document::materials`] turns each of its surface materials into a tree of
+//! [`Closure`]s whose inputs are resolved, validated and in linear Rec. 709; what a renderer does with it is its own
+//! business. Every [`Error`] is one line that names the file, line and column, the element, the value and the way out.
+//!
+//! ```
+//! use catseye_materialx::{Closure, Document};
+//!
+//! let text = r#"
+//!     <materialx version="1.39">
+//!       <retro_reflective_bsdf name="beads" type="BSDF">
+//!         <input name="roughness_u" type="float" value="0.05" />
+//!       </retro_reflective_bsdf>
+//!       <surface name="skin" type="surfaceshader">
+//!         <input name="bsdf" type="BSDF" nodename="beads" />
+//!       </surface>
+//!       <surfacematerial name="vest" type="material">
+//!         <input name="surfaceshader" type="surfaceshader" nodename="skin" />
+//!       </surfacematerial>
+//!     </materialx>"#;
+//! let vest = Document::parse(text, "vest.mtlx")?.material(None)?;
+//! let Closure::RetroReflective { params, .. } = vest.bsdf else { panic!("{vest:?}") };
+//! assert_eq!(params.roughness_u, 0.05);
+//!
+//! let error = Document::parse(&text.replace("0.05", "shiny"), "vest.mtlx")?.material(None).unwrap_err();
+//! assert_eq!(
+//!     error.to_string(),
+//!     "vest.mtlx:4:9: retro_reflective_bsdf \"beads\", input \"roughness_u\": \
+//!      value \"shiny\" is not a number; write one like 0.5"
+//! );
+//! # Ok::<(), catseye_materialx::Error>(())
+//! ```
+//!
+//! # What is read
+//!
+//! Documents of version 1.38 and 1.39: `surfacematerial`, `surface` (`bsdf`, `opacity`), `retro_reflective_bsdf`,
+//! `oren_nayar_diffuse_bsdf`, `dielectric_bsdf`, `mix`, `layer`, `add` and `multiply` of BSDFs, connected with
+//! `nodename` or through the output of a nodegraph. Inputs of other types are constants. Colours may be in the colour
+//! spaces `lin_rec709`, `raw`, `none` and `srgb_texture`, also inherited from an element further out. Only what a
+//! material refers to is checked.
+//!
+//! Hostile documents are refused in bounded time and memory: no document type declarations, at most 16 MiB, 32 levels
+//! of elements, 64 BSDF nodes in a chain and 65,536 closures.
 
 mod closure;
+mod document;
+mod element;
+mod error;
+mod graph;
+mod material;
+mod node;
+mod nodedef;
+mod source;
+mod value;
+mod xml;
 
 pub use closure::{Closure, Material, ScatterMode};
+pub use document::Document;
+pub use error::{Error, Place};

@@ -1,0 +1,113 @@
+//! A document's elements, independent of the XML parser and of the file they came from.
+
+use std::sync::Arc;
+
+use crate::{
+    error::{Error, Place, quoted},
+    source::Source,
+};
+
+/// Where an element starts.
+#[derive(Clone, Debug)]
+pub(crate) struct Span {
+    source: Arc<Source>,
+    offset: usize,
+}
+
+impl Span {
+    pub(crate) fn new(source: &Arc<Source>, offset: usize) -> Self {
+        Self { source: Arc::clone(source), offset }
+    }
+
+    pub(crate) fn place(&self, element: String) -> Place {
+        self.source.place(self.offset, element)
+    }
+}
+
+/// A name and its text.
+#[derive(Debug)]
+pub(crate) struct Attribute {
+    name: Box<str>,
+    value: Box<str>,
+}
+
+impl Attribute {
+    pub(crate) fn new(name: &str, value: &str) -> Self {
+        Self { name: name.into(), value: value.into() }
+    }
+}
+
+/// An element of a document; its tag is its node category where it is a node.
+#[derive(Debug)]
+pub(crate) struct Element {
+    tag: String,
+    attributes: Vec<Attribute>,
+    children: Vec<Element>,
+    span: Span,
+    colorspace: Option<Arc<str>>,
+}
+
+impl Element {
+    pub(crate) fn new(
+        tag: String,
+        attributes: Vec<Attribute>,
+        children: Vec<Element>,
+        span: Span,
+        colorspace: Option<Arc<str>>,
+    ) -> Self {
+        Self { tag, attributes, children, span, colorspace }
+    }
+
+    pub(crate) fn tag(&self) -> &str {
+        &self.tag
+    }
+
+    pub(crate) fn children(&self) -> &[Element] {
+        &self.children
+    }
+
+    /// The colour space of this element's values: its own or that of the nearest element around it.
+    pub(crate) fn colorspace(&self) -> Option<&str> {
+        self.colorspace.as_deref()
+    }
+
+    /// The attribute's text; an empty one counts as absent, as in MaterialX.
+    pub(crate) fn attribute(&self, name: &str) -> Option<&str> {
+        let attribute = self.attributes.iter().find(|attribute| &*attribute.name == name)?;
+        Some(&*attribute.value).filter(|value| !value.is_empty())
+    }
+
+    pub(crate) fn name(&self) -> Option<&str> {
+        self.attribute("name")
+    }
+
+    /// The name in quotes, for messages.
+    pub(crate) fn quoted_name(&self) -> String {
+        quoted(self.name().unwrap_or_default())
+    }
+
+    /// The attribute's text, or an error that asks for it.
+    pub(crate) fn require(&self, attribute: &'static str) -> Result<&str, Error> {
+        self.attribute(attribute).ok_or_else(|| Error::MissingAttribute { at: self.place(), attribute })
+    }
+
+    /// Where it is, with tag and name, as in `mix "body"`.
+    pub(crate) fn place(&self) -> Place {
+        self.span.place(self.describe())
+    }
+
+    /// Where an element inside this one is, with both names, as in `mix "body", input "fg"`.
+    pub(crate) fn place_of(&self, child: &Element) -> Place {
+        child.span.place(format!("{}, {}", self.describe(), child.describe()))
+    }
+
+    fn describe(&self) -> String {
+        /// Tags of MaterialX are short; a hostile one must not fill the screen.
+        const LONGEST_TAG: usize = 40;
+        let tag = self.tag.chars().take(LONGEST_TAG).collect::<String>();
+        match self.name() {
+            None => tag,
+            Some(name) => format!("{tag} {}", quoted(name)),
+        }
+    }
+}

@@ -1,0 +1,280 @@
+//! What can be wrong with a document, each with its place and the way out.
+
+use core::fmt;
+use std::{io, sync::Arc};
+
+/// Where in a document something is wrong.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Place {
+    /// The file, as named by the caller.
+    pub file: Arc<str>,
+    /// Line, from 1.
+    pub line: u32,
+    /// Column in characters, from 1.
+    pub column: u32,
+    /// The element and its name, as in `mix "body", input "fg"`; empty where the text is no XML yet.
+    pub element: String,
+}
+
+impl fmt::Display for Place {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { file, line, column, element } = self;
+        write!(f, "{file}:{line}:{column}")?;
+        if element.is_empty() { Ok(()) } else { write!(f, ": {element}") }
+    }
+}
+
+/// Why a document could not be read: one line that names file, place, element, value and the way out.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// The file is missing, or the system refuses to give it.
+    #[error("{file}: can't be read: {cause}")]
+    Read {
+        /// The file.
+        file: Arc<str>,
+        /// What the system says.
+        cause: io::Error,
+    },
+    /// A folder where a file is expected.
+    #[error("{file}: is a folder; name one .mtlx file")]
+    Folder {
+        /// The folder.
+        file: Arc<str>,
+    },
+    /// The file is too large to be a material.
+    #[error("{file}: is larger than {limit} bytes; split the document")]
+    TooLarge {
+        /// The file.
+        file: Arc<str>,
+        /// Most bytes that are read.
+        limit: usize,
+    },
+    /// The text is not UTF-8.
+    #[error("{at}: is not UTF-8 from here on; save the file as UTF-8")]
+    NotUtf8 {
+        /// The first byte that is wrong.
+        at: Place,
+    },
+    /// The text is not well-formed XML.
+    #[error("{at}: malformed XML: {message}")]
+    Xml {
+        /// Where the parser stopped.
+        at: Place,
+        /// What it says.
+        message: String,
+    },
+    /// A document type declaration: the door to entity bombs and foreign files, and MaterialX has no use for it.
+    #[error("{at}: document type declarations are refused; remove <!DOCTYPE ...>")]
+    DocumentType {
+        /// The declaration.
+        at: Place,
+    },
+    /// More of something than any sane document has: reading it would take unbounded time or memory.
+    #[error("{at}: more than {limit} {what}; simplify or split the document")]
+    Limit {
+        /// Where the limit was passed.
+        at: Place,
+        /// What there is too much of.
+        what: &'static str,
+        /// How much is allowed.
+        limit: usize,
+    },
+    /// XML, but of another kind.
+    #[error("{at}: the root element is not <materialx>; this is no MaterialX document")]
+    NotMaterialX {
+        /// The root element.
+        at: Place,
+    },
+    /// A document of a version whose rules are not known here.
+    #[error("{at}: version {version} is not supported; versions 1.38 and 1.39 are")]
+    Version {
+        /// The root element.
+        at: Place,
+        /// The version, quoted.
+        version: String,
+    },
+    /// MaterialX, but a part of it that is not read here.
+    #[error("{at}: {what} is not supported; {instead}")]
+    Unsupported {
+        /// The element.
+        at: Place,
+        /// What is not supported.
+        what: String,
+        /// The way out.
+        instead: String,
+    },
+    /// An attribute that MaterialX demands is missing.
+    #[error("{at}: has no {attribute}=\"...\"; add it")]
+    MissingAttribute {
+        /// The element.
+        at: Place,
+        /// The attribute.
+        attribute: &'static str,
+    },
+    /// Two elements of one scope have the same name, so a connection to it would be ambiguous.
+    #[error("{at}: the name is already taken in line {first_line}; rename one of them")]
+    DuplicateName {
+        /// The second element.
+        at: Place,
+        /// Line of the first.
+        first_line: u32,
+    },
+    /// A node of a category that is not known here.
+    #[error("{at}: unknown node category; {known} are known")]
+    UnknownCategory {
+        /// The node.
+        at: Place,
+        /// The known categories.
+        known: String,
+    },
+    /// An input that the node's category does not have.
+    #[error("{at}: no such input; {category} has {known}")]
+    UnknownInput {
+        /// The input.
+        at: Place,
+        /// The node's category.
+        category: &'static str,
+        /// The inputs it has.
+        known: String,
+    },
+    /// A type other than the node's definition says.
+    #[error("{at}: is of type {found}; {expected} is expected")]
+    WrongType {
+        /// The node or input.
+        at: Place,
+        /// The type it is given, quoted.
+        found: String,
+        /// The type, or the types, it may have.
+        expected: String,
+    },
+    /// A value that can't be read as its type.
+    #[error("{at}: value {value} is not {expected}")]
+    BadValue {
+        /// The input.
+        at: Place,
+        /// The value, quoted.
+        value: String,
+        /// What is expected, with an example.
+        expected: &'static str,
+    },
+    /// A value outside its range.
+    #[error("{at}: {message}")]
+    OutOfRange {
+        /// The input.
+        at: Place,
+        /// Name, value and range.
+        message: String,
+    },
+    /// A colour space that is not known here.
+    #[error("{at}: colour space {colorspace} is not supported; {supported} are")]
+    ColorSpace {
+        /// The input.
+        at: Place,
+        /// The colour space, quoted.
+        colorspace: String,
+        /// Those that are known.
+        supported: String,
+    },
+    /// A connection that leads nowhere.
+    #[error("{at}: is connected to {target}, which doesn't exist; add it or correct the name")]
+    Dangling {
+        /// The input.
+        at: Place,
+        /// What it names.
+        target: String,
+    },
+    /// A node that feeds itself.
+    #[error("{at}: is connected to itself: {path}; break the cycle")]
+    Cycle {
+        /// The node.
+        at: Place,
+        /// The nodes of the cycle in order.
+        path: String,
+    },
+    /// A document without a material.
+    #[error("{file}: has no <surfacematerial>; add one and connect its surfaceshader")]
+    NoMaterial {
+        /// The file.
+        file: Arc<str>,
+    },
+    /// A material without a surface.
+    #[error("{at}: has no surfaceshader; connect a surface node")]
+    NoSurface {
+        /// The material.
+        at: Place,
+    },
+    /// One material was asked for by name, and there is none of that name.
+    #[error("{file}: has no material {name}; it has {names}")]
+    NoSuchMaterial {
+        /// The file.
+        file: Arc<str>,
+        /// The name asked for, quoted.
+        name: String,
+        /// The names there are.
+        names: String,
+    },
+    /// One material was expected, and there are several.
+    #[error("{file}: has several materials; choose one of {names}")]
+    SeveralMaterials {
+        /// The file.
+        file: Arc<str>,
+        /// Their names.
+        names: String,
+    },
+}
+
+impl Error {
+    /// Where the document is wrong; `None` where the file as a whole is.
+    #[must_use]
+    pub fn place(&self) -> Option<&Place> {
+        match self {
+            Self::Read { .. }
+            | Self::Folder { .. }
+            | Self::TooLarge { .. }
+            | Self::NoMaterial { .. }
+            | Self::NoSuchMaterial { .. }
+            | Self::SeveralMaterials { .. } => None,
+            Self::NotUtf8 { at }
+            | Self::Xml { at, .. }
+            | Self::DocumentType { at }
+            | Self::Limit { at, .. }
+            | Self::NotMaterialX { at }
+            | Self::Version { at, .. }
+            | Self::Unsupported { at, .. }
+            | Self::MissingAttribute { at, .. }
+            | Self::DuplicateName { at, .. }
+            | Self::UnknownCategory { at, .. }
+            | Self::UnknownInput { at, .. }
+            | Self::WrongType { at, .. }
+            | Self::BadValue { at, .. }
+            | Self::OutOfRange { at, .. }
+            | Self::ColorSpace { at, .. }
+            | Self::Dangling { at, .. }
+            | Self::Cycle { at, .. }
+            | Self::NoSurface { at } => Some(at),
+        }
+    }
+}
+
+/// The text in quotes, on one line and short enough for a message, whatever it contains.
+pub(crate) fn quoted(text: &str) -> String {
+    /// Characters of the document's text that a message repeats.
+    const LONGEST: usize = 60;
+    match text.char_indices().nth(LONGEST) {
+        None => format!("{text:?}"),
+        Some((end, _)) => format!("{:?}...", &text[..end]),
+    }
+}
+
+/// Names for a message, in the given order: at most 20, then how many more there are.
+pub(crate) fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+    const MOST: usize = 20;
+    let mut names = names.into_iter();
+    let mut text = names.by_ref().take(MOST).collect::<Vec<_>>().join(", ");
+    let rest = names.count();
+    if rest > 0 {
+        text += &format!(" and {rest} more");
+    }
+    text
+}

@@ -1,0 +1,253 @@
+//! The known node categories: the one place that says which inputs a node has, of which type, with which
+//! default and range.
+//!
+//! Names, types and defaults are those of MaterialX 1.39 and, for `retro_reflective_bsdf`, of the proposal.
+
+use crate::value::{Type, Value};
+
+/// What a node is, once its category and types are resolved.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Kind {
+    RetroReflective,
+    OrenNayarDiffuse,
+    Dielectric,
+    Mix,
+    Layer,
+    Add,
+    Multiply,
+    Surface,
+    SurfaceMaterial,
+}
+
+/// A node definition. A category that exists for several types has one for each, as in MaterialX.
+#[derive(Debug)]
+pub(crate) struct NodeDef {
+    pub(crate) category: &'static str,
+    pub(crate) kind: Kind,
+    pub(crate) output: Type,
+    pub(crate) inputs: &'static [InputDef],
+}
+
+impl NodeDef {
+    pub(crate) fn input(&self, name: &str) -> Option<(usize, &'static InputDef)> {
+        self.inputs.iter().enumerate().find(|(_, input)| input.name == name)
+    }
+}
+
+/// An input of a node definition.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct InputDef {
+    pub(crate) name: &'static str,
+    pub(crate) default: Default,
+    pub(crate) accepts: Accepts,
+}
+
+impl InputDef {
+    const fn accepting(self, accepts: Accepts) -> Self {
+        Self { accepts, ..self }
+    }
+
+    pub(crate) const fn ty(&self) -> Type {
+        match self.default {
+            Default::Value(value) => value.ty(),
+            Default::Geometry(_) => Type::Vector3,
+            Default::Unconnected(ty) => ty,
+        }
+    }
+}
+
+/// What an input is when the document says nothing.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Default {
+    /// A constant.
+    Value(Value<'static>),
+    /// A direction of the geometry, by the name of MaterialX's geometric property.
+    Geometry(&'static str),
+    /// Nothing is connected.
+    Unconnected(Type),
+}
+
+/// Which values an input may have, beyond its type.
+#[derive(Clone, Copy, Debug)]
+pub(crate) enum Accepts {
+    /// Every one; or the receiver checks.
+    Any,
+    /// `[0, 1]`, each component.
+    Unit,
+    /// `(0, inf)`, each component.
+    Positive,
+    /// A direction: finite and not zero.
+    Direction,
+    /// One of these words.
+    Words(&'static [&'static str]),
+    /// Nothing but the default: the rest is not implemented.
+    DefaultOnly,
+}
+
+impl Accepts {
+    /// The range in words where `value` is outside it.
+    pub(crate) fn refusal(self, value: Value<'_>) -> Option<String> {
+        let all = |inside: fn(f32) -> bool| value.components().iter().all(|&x| inside(x));
+        let (accepted, range) = match self {
+            Self::Any | Self::DefaultOnly => return None,
+            Self::Unit => (all(|x| (0.0..=1.0).contains(&x)), "outside [0, 1]".to_owned()),
+            Self::Positive => (all(|x| x > 0.0 && x.is_finite()), "outside (0, inf)".to_owned()),
+            Self::Direction => (
+                all(f32::is_finite) && value.components().iter().any(|&x| x != 0.0),
+                "not a direction; write one like 1, 0, 0".to_owned(),
+            ),
+            Self::Words(words) => {
+                let known = matches!(value, Value::String(word) if words.contains(&word));
+                (known, format!("not one of {}", words.join(", ")))
+            }
+        };
+        (!accepted).then_some(range)
+    }
+}
+
+const fn input(name: &'static str, default: Value<'static>) -> InputDef {
+    InputDef { name, default: Default::Value(default), accepts: Accepts::Any }
+}
+
+const fn float(name: &'static str, default: f32) -> InputDef {
+    input(name, Value::Float(default))
+}
+
+const fn unit_float(name: &'static str, default: f32) -> InputDef {
+    float(name, default).accepting(Accepts::Unit)
+}
+
+const fn color(name: &'static str, default: f32) -> InputDef {
+    input(name, Value::Color3([default; 3]))
+}
+
+const fn unit_color(name: &'static str, default: f32) -> InputDef {
+    color(name, default).accepting(Accepts::Unit)
+}
+
+const fn flag(name: &'static str, default: bool) -> InputDef {
+    input(name, Value::Boolean(default))
+}
+
+const fn word(name: &'static str, default: &'static str, words: &'static [&'static str]) -> InputDef {
+    input(name, Value::String(default)).accepting(Accepts::Words(words))
+}
+
+const fn geometry(name: &'static str, property: &'static str) -> InputDef {
+    InputDef { name, default: Default::Geometry(property), accepts: Accepts::DefaultOnly }
+}
+
+const fn connection(name: &'static str, ty: Type) -> InputDef {
+    InputDef { name, default: Default::Unconnected(ty), accepts: Accepts::Any }
+}
+
+/// Every known node definition.
+pub(crate) static NODE_DEFS: &[NodeDef] = &[
+    NodeDef {
+        category: "retro_reflective_bsdf",
+        kind: Kind::RetroReflective,
+        output: Type::Bsdf,
+        // `catseye::Params::validate` knows the ranges of the four inputs that accept any value.
+        inputs: &[
+            unit_float("weight", 1.0),
+            float("roughness_u", 0.0),
+            float("roughness_v", -1.0),
+            color("tint", 1.0),
+            color("multiscatter_tint", 0.0),
+            geometry("tangent_u", "Tworld").accepting(Accepts::Direction),
+            geometry("normal", "Nworld"),
+        ],
+    },
+    NodeDef {
+        category: "oren_nayar_diffuse_bsdf",
+        kind: Kind::OrenNayarDiffuse,
+        output: Type::Bsdf,
+        inputs: &[
+            unit_float("weight", 1.0),
+            unit_color("color", 0.18),
+            unit_float("roughness", 0.0),
+            geometry("normal", "Nworld"),
+            flag("energy_compensation", false),
+        ],
+    },
+    NodeDef {
+        category: "dielectric_bsdf",
+        kind: Kind::Dielectric,
+        output: Type::Bsdf,
+        inputs: &[
+            unit_float("weight", 1.0),
+            unit_color("tint", 1.0),
+            float("ior", 1.5).accepting(Accepts::Positive),
+            input("roughness", Value::Vector2([0.05; 2])).accepting(Accepts::Unit),
+            flag("retroreflective", false).accepting(Accepts::DefaultOnly),
+            float("thinfilm_thickness", 0.0).accepting(Accepts::DefaultOnly),
+            // Without a film its index does nothing.
+            float("thinfilm_ior", 1.5),
+            geometry("normal", "Nworld"),
+            geometry("tangent", "Tworld"),
+            word("distribution", "ggx", &["ggx"]),
+            word("scatter_mode", "R", &["R", "T", "RT"]),
+        ],
+    },
+    NodeDef {
+        category: "mix",
+        kind: Kind::Mix,
+        output: Type::Bsdf,
+        inputs: &[connection("fg", Type::Bsdf), connection("bg", Type::Bsdf), unit_float("mix", 0.0)],
+    },
+    NodeDef {
+        category: "layer",
+        kind: Kind::Layer,
+        output: Type::Bsdf,
+        inputs: &[connection("top", Type::Bsdf), connection("base", Type::Bsdf)],
+    },
+    NodeDef {
+        category: "add",
+        kind: Kind::Add,
+        output: Type::Bsdf,
+        inputs: &[connection("in1", Type::Bsdf), connection("in2", Type::Bsdf)],
+    },
+    NodeDef {
+        category: "multiply",
+        kind: Kind::Multiply,
+        output: Type::Bsdf,
+        inputs: &[connection("in1", Type::Bsdf), unit_float("in2", 1.0)],
+    },
+    NodeDef {
+        category: "multiply",
+        kind: Kind::Multiply,
+        output: Type::Bsdf,
+        inputs: &[connection("in1", Type::Bsdf), unit_color("in2", 1.0)],
+    },
+    NodeDef {
+        category: "surface",
+        kind: Kind::Surface,
+        output: Type::SurfaceShader,
+        inputs: &[
+            connection("bsdf", Type::Bsdf),
+            connection("edf", Type::Edf).accepting(Accepts::DefaultOnly),
+            unit_float("opacity", 1.0),
+            flag("thin_walled", false).accepting(Accepts::DefaultOnly),
+        ],
+    },
+    NodeDef {
+        category: "surfacematerial",
+        kind: Kind::SurfaceMaterial,
+        output: Type::Material,
+        inputs: &[
+            connection("surfaceshader", Type::SurfaceShader),
+            connection("backsurfaceshader", Type::SurfaceShader).accepting(Accepts::DefaultOnly),
+            connection("displacementshader", Type::DisplacementShader).accepting(Accepts::DefaultOnly),
+        ],
+    },
+];
+
+/// The known categories in the table's order, each once.
+pub(crate) fn categories() -> impl Iterator<Item = &'static str> {
+    let mut last = "";
+    NODE_DEFS.iter().map(|def| def.category).filter(move |&category| {
+        let first = category != last;
+        last = category;
+        first
+    })
+}

@@ -1,0 +1,130 @@
+//! From text to a tree of elements, in bounded time and memory whatever the text.
+
+use std::sync::Arc;
+
+use roxmltree::{Node, ParsingOptions};
+
+use crate::{
+    element::{Attribute, Element, Span},
+    error::Error,
+    source::Source,
+};
+
+/// Elements, texts and comments of a document. MaterialX's own libraries together have about 30,000.
+const MAX_XML_NODES: u32 = 500_000;
+/// Elements inside elements; MaterialX itself needs four.
+const MAX_NESTING: usize = 32;
+/// Quotes in one tag, two for each attribute: roxmltree compares every attribute of an element with every other.
+const MAX_QUOTES: usize = 512;
+/// Namespace declarations: roxmltree copies those of the parent into every child that declares another.
+const MAX_NAMESPACES: usize = 64;
+
+/// Bytes of one attribute, except `doc`: names and values are hashed and parsed wherever they are referred to.
+const MAX_ATTRIBUTE: usize = 4096;
+
+const XINCLUDE: &str = "http://www.w3.org/2001/XInclude";
+
+/// Parses the text and returns its root element.
+pub(crate) fn parse(source: &Arc<Source>) -> Result<Element, Error> {
+    refuse_quadratic(source)?;
+    let options =
+        ParsingOptions { allow_dtd: false, nodes_limit: MAX_XML_NODES, ..ParsingOptions::default() };
+    let xml = roxmltree::Document::parse_with_options(source.text(), options)
+        .map_err(|cause| xml_error(source, &cause))?;
+    convert(xml.root_element(), source, None, 1)
+}
+
+/// Refuses what the XML parser needs quadratic time for.
+///
+/// A `<` ends every tag for this purpose: it can't stand inside one, not even in an attribute's value.
+fn refuse_quadratic(source: &Source) -> Result<(), Error> {
+    let text = source.text();
+    let limit_at =
+        |offset, what, limit| Error::Limit { at: source.place(offset, String::new()), what, limit };
+    if let Some((offset, _)) = text.match_indices("xmlns").nth(MAX_NAMESPACES) {
+        return Err(limit_at(offset, "namespace declarations", MAX_NAMESPACES));
+    }
+    let mut quotes = 0;
+    for (offset, byte) in text.bytes().enumerate() {
+        match byte {
+            b'<' => quotes = 0,
+            b'"' | b'\'' => quotes += 1,
+            _ => {}
+        }
+        if quotes > MAX_QUOTES {
+            return Err(limit_at(offset, "quotes before the next <", MAX_QUOTES));
+        }
+    }
+    Ok(())
+}
+
+fn xml_error(source: &Source, cause: &roxmltree::Error) -> Error {
+    use roxmltree::Error as Xml;
+    let text = source.text();
+    let place = |offset| source.place(offset, String::new());
+    match cause {
+        Xml::DtdDetected => Error::DocumentType { at: place(text.find("<!DOCTYPE").unwrap_or(0)) },
+        Xml::NodesLimitReached => {
+            Error::Limit { at: place(0), what: "XML nodes", limit: MAX_XML_NODES as usize }
+        }
+        // These have no position of their own: the text ends too early.
+        Xml::NoRootNode | Xml::UnclosedRootNode | Xml::UnexpectedEndOfStream => {
+            Error::Xml { at: place(text.len()), message: cause.to_string() }
+        }
+        _ => {
+            let position = cause.pos();
+            let mut at = place(0);
+            (at.line, at.column) = (position.row, position.col);
+            // The position stands in front already.
+            Error::Xml { at, message: cause.to_string().replace(&format!(" at {position}"), "") }
+        }
+    }
+}
+
+/// Copies an element out of the parser's tree; recursion is bounded by [`MAX_NESTING`].
+fn convert(
+    node: Node<'_, '_>,
+    source: &Arc<Source>,
+    colorspace: Option<&Arc<str>>,
+    depth: usize,
+) -> Result<Element, Error> {
+    let span = Span::new(source, node.range().start);
+    if depth > MAX_NESTING {
+        return Err(Error::Limit {
+            at: span.place(String::new()),
+            what: "levels of elements inside elements",
+            limit: MAX_NESTING,
+        });
+    }
+    if node.attributes().any(|a| a.name() != "doc" && a.value().len() > MAX_ATTRIBUTE) {
+        return Err(Error::Limit {
+            at: span.place(String::new()),
+            what: "bytes in an attribute",
+            limit: MAX_ATTRIBUTE,
+        });
+    }
+    let own_colorspace = node.attribute("colorspace").filter(|name| !name.is_empty()).map(Arc::from);
+    let colorspace = own_colorspace.as_ref().or(colorspace);
+    let children = node
+        .children()
+        .filter(|child| is_materialx(*child))
+        .map(|child| convert(child, source, colorspace, depth + 1))
+        .collect::<Result<_, _>>()?;
+    let attributes = node.attributes().map(|a| Attribute::new(a.name(), a.value())).collect();
+    Ok(Element::new(tag(node), attributes, children, span, colorspace.cloned()))
+}
+
+/// Elements in other tools' namespaces are theirs to read; an include is ours to see.
+fn is_materialx(node: Node<'_, '_>) -> bool {
+    let namespace = node.tag_name().namespace();
+    let document = node.document().root_element().tag_name().namespace();
+    node.is_element() && (namespace == document || namespace == Some(XINCLUDE))
+}
+
+fn tag(node: Node<'_, '_>) -> String {
+    let name = node.tag_name();
+    match name.namespace() {
+        Some(XINCLUDE) => format!("xi:{}", name.name()),
+        _ => name.name().to_owned(),
+    }
+}
