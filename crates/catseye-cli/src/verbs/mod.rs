@@ -1,0 +1,8 @@
+//! One file for each verb.
+
+pub(crate) mod albedo;
+pub(crate) mod eval;
+pub(crate) mod furnace;
+pub(crate) mod plot;
+pub(crate) mod render;
+pub(crate) mod sample;

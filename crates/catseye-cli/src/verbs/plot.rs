@@ -1,0 +1,7 @@
+#[derive(Debug, clap::Args)]
+pub(crate) struct Args {}
+impl Args {
+    pub(crate) fn run(&self) -> anyhow::Result<()> {
+        Ok(())
+    }
+}
