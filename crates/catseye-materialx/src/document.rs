@@ -105,7 +105,7 @@ impl Document {
         let file = || Arc::clone(&self.name);
         let mut materials = graph.materials();
         let Some(first) = materials.next() else { return Err(Error::NoMaterial { file: file() }) };
-        let names = || listed(graph.materials().filter_map(|material| material.element.name()));
+        let names = || listed(graph.materials().map(|material| material.element.quoted_name()));
         match name {
             Some(name) => graph
                 .materials()

@@ -91,6 +91,17 @@ impl Element {
         self.attribute(attribute).ok_or_else(|| Error::MissingAttribute { at: self.place(), attribute })
     }
 
+    /// The attribute's text of an element inside this one, or an error that asks for it.
+    pub(crate) fn require_of<'a>(
+        &self,
+        child: &'a Element,
+        attribute: &'static str,
+    ) -> Result<&'a str, Error> {
+        child
+            .attribute(attribute)
+            .ok_or_else(|| Error::MissingAttribute { at: self.place_of(child), attribute })
+    }
+
     /// Where it is, with tag and name, as in `mix "body"`.
     pub(crate) fn place(&self) -> Place {
         self.span.place(self.describe())

@@ -1,6 +1,6 @@
 //! What can be wrong with a document, each with its place and the way out.
 
-use core::fmt;
+use core::{borrow::Borrow, fmt};
 use std::{io, sync::Arc};
 
 /// Where in a document something is wrong.
@@ -185,12 +185,12 @@ pub enum Error {
         target: String,
     },
     /// A node that feeds itself.
-    #[error("{at}: is connected to itself: {path}; break the cycle")]
+    #[error("{at}: feeds itself through {cycle}; break the cycle")]
     Cycle {
         /// The node.
         at: Place,
-        /// The nodes of the cycle in order.
-        path: String,
+        /// The nodes of the cycle, from it on.
+        cycle: String,
     },
     /// A document without a material.
     #[error("{file}: has no <surfacematerial>; add one and connect its surfaceshader")]
@@ -257,21 +257,32 @@ impl Error {
     }
 }
 
+/// Characters of the document's text that a message repeats at a time.
+const LONGEST: usize = 60;
+
 /// The text in quotes, on one line and short enough for a message, whatever it contains.
 pub(crate) fn quoted(text: &str) -> String {
-    /// Characters of the document's text that a message repeats.
-    const LONGEST: usize = 60;
     match text.char_indices().nth(LONGEST) {
         None => format!("{text:?}"),
         Some((end, _)) => format!("{:?}...", &text[..end]),
     }
 }
 
+/// The XML parser's words on one line, the long names of a hostile document cut short.
+pub(crate) fn one_line(text: &str) -> String {
+    let printable = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
+    let mut line: String = text.chars().take(3 * LONGEST).map(printable).collect();
+    if text.chars().nth(3 * LONGEST).is_some() {
+        line += "...";
+    }
+    line
+}
+
 /// Names for a message, in the given order: at most 20, then how many more there are.
-pub(crate) fn listed<'a>(names: impl IntoIterator<Item = &'a str>) -> String {
+pub(crate) fn listed<S: Borrow<str>>(names: impl IntoIterator<Item = S>) -> String {
     const MOST: usize = 20;
     let mut names = names.into_iter();
-    let mut text = names.by_ref().take(MOST).collect::<Vec<_>>().join(", ");
+    let mut text = names.by_ref().take(MOST).collect::<Vec<S>>().join(", ");
     let rest = names.count();
     if rest > 0 {
         text += &format!(" and {rest} more");

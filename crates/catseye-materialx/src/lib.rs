@@ -48,6 +48,7 @@ mod document;
 mod element;
 mod error;
 mod graph;
+mod input;
 mod material;
 mod node;
 mod nodedef;

@@ -7,7 +7,7 @@ use catseye::Params;
 use crate::{
     closure::{Closure, Material, ScatterMode},
     element::Element,
-    error::Error,
+    error::{Error, listed},
     graph::{Graph, NodeRef},
     node::Node,
     nodedef::Kind,
@@ -58,9 +58,8 @@ impl<'a> Builder<'a> {
 
     fn enter(&mut self, element: &'a Element) -> Result<(), Error> {
         if let Some(start) = self.path.iter().position(|&visited| ptr::eq(visited, element)) {
-            let names = self.path[start..].iter().chain([&element]);
-            let names: Vec<String> = names.map(|element| element.quoted_name()).collect();
-            return Err(Error::Cycle { at: element.place(), path: names.join(" <- ") });
+            let cycle = self.path[start..].iter().map(|element| element.quoted_name());
+            return Err(Error::Cycle { at: element.place(), cycle: listed(cycle) });
         }
         let limit = |what, limit| Err(Error::Limit { at: element.place(), what, limit });
         if self.path.len() >= MAX_DEPTH {
@@ -104,11 +103,22 @@ fn retro_reflective(node: &Node<'_>) -> Result<Closure, Error> {
         tint: node.color("tint"),
         multiscatter_tint: node.color("multiscatter_tint"),
     };
-    params
+    as_written(&params)
         .validate()
         .map_err(|cause| Error::OutOfRange { at: node.place_of(cause.name()), message: cause.to_string() })?;
     let tangent_u = node.direction("tangent_u").map(unit);
     Ok(Closure::RetroReflective { weight: node.float("weight"), params, tangent_u })
+}
+
+/// The parameters to more digits, so that a refusal shows 1.1 and not 1.100000023841858, the f32 next to it.
+fn as_written(params: &Params<f32>) -> Params<f64> {
+    let written = |x: f32| x.to_string().parse().unwrap_or(f64::from(x));
+    Params {
+        roughness_u: written(params.roughness_u),
+        roughness_v: params.roughness_v.map(written),
+        tint: params.tint.map(written),
+        multiscatter_tint: params.multiscatter_tint.map(written),
+    }
 }
 
 fn oren_nayar_diffuse(node: &Node<'_>) -> Closure {

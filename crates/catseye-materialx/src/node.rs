@@ -4,8 +4,9 @@ use crate::{
     element::Element,
     error::{Error, Place, listed, quoted},
     graph::{Graph, NodeRef},
-    nodedef::{Accepts, Default, InputDef, NODE_DEFS, NodeDef, categories},
-    value::{COLOR_SPACES, Type, Value},
+    input::{Feed, feed},
+    nodedef::{InputDef, InputDefault, NODE_DEFS, NodeDef, categories},
+    value::{Type, Value},
 };
 
 /// A node whose category, type and inputs agree with its definition.
@@ -20,48 +21,40 @@ pub(crate) struct Node<'a> {
 #[derive(Clone, Copy, Debug)]
 struct Input<'a> {
     element: Option<&'a Element>,
-    source: Source<'a>,
-}
-
-/// Where an input's value comes from.
-#[derive(Clone, Copy, Debug)]
-enum Source<'a> {
-    Default,
-    Value(Value<'a>),
-    Node(NodeRef<'a>),
+    feed: Feed<'a>,
 }
 
 impl<'a> Node<'a> {
     /// Finds the node's definition and checks all its inputs, connections one step far.
     pub(crate) fn bind(graph: &Graph<'a>, node: NodeRef<'a>) -> Result<Self, Error> {
         let def = definition(node.element)?;
-        let mut inputs = vec![Input { element: None, source: Source::Default }; def.inputs.len()];
+        let mut inputs = vec![Input { element: None, feed: Feed::Default }; def.inputs.len()];
         for child in node.element.children() {
-            let name = child.require("name")?;
+            let name = node.element.require_of(child, "name")?;
             // `definition` has made sure that there is such an input.
             let Some((index, input)) = def.input(name) else { continue };
             if let Some(first) = inputs[index].element {
                 let first_line = first.place().line;
                 return Err(Error::DuplicateName { at: node.element.place_of(child), first_line });
             }
-            inputs[index] = Input { element: Some(child), source: source(graph, node, child, input)? };
+            inputs[index] = Input { element: Some(child), feed: feed(graph, node, child, input)? };
         }
         Ok(Self { element: node.element, def, inputs })
     }
 
     /// The node that an input is connected to.
     pub(crate) fn connected(&self, input: &str) -> Option<NodeRef<'a>> {
-        match self.input(input).0.source {
-            Source::Node(node) => Some(node),
-            Source::Default | Source::Value(_) => None,
+        match self.input(input).0.feed {
+            Feed::Node(node) => Some(node),
+            Feed::Default | Feed::Value(_) => None,
         }
     }
 
     /// The value of an input, where it is not the geometry's.
     fn value(&self, input: &str) -> Option<Value<'a>> {
         match self.input(input) {
-            (Input { source: Source::Value(value), .. }, _) => Some(*value),
-            (_, InputDef { default: Default::Value(value), .. }) => Some(*value),
+            (Input { feed: Feed::Value(value), .. }, _) => Some(*value),
+            (_, InputDef { default: InputDefault::Value(value), .. }) => Some(*value),
             _ => None,
         }
     }
@@ -127,8 +120,8 @@ impl<'a> Node<'a> {
         }
     }
 
-    /// The table of definitions and the code that reads the nodes disagree: no document can cause this, and the
-    /// test `every definition reads from its defaults` shows that the code doesn't.
+    /// The definitions and the code that reads nodes disagree: no document can cause this. The test
+    /// `defaults_are_those_of_the_node_definitions` reads every input of every category.
     fn disagreement(&self, input: &str, value: Option<Value<'_>>) -> ! {
         unreachable!("{}'s definition: input {input} has value {value:?}", self.def.category)
     }
@@ -145,7 +138,7 @@ fn definition(node: &Element) -> Result<&'static NodeDef, Error> {
 }
 
 /// The definitions of an element's category and type; at least one.
-fn definitions(node: &Element) -> Result<Vec<&'static NodeDef>, Error> {
+pub(crate) fn definitions(node: &Element) -> Result<Vec<&'static NodeDef>, Error> {
     let mut defs: Vec<&NodeDef> = NODE_DEFS.iter().filter(|def| def.category == node.tag()).collect();
     if defs.is_empty() {
         return Err(Error::UnknownCategory { at: node.place(), known: listed(categories()) });
@@ -169,7 +162,7 @@ fn narrow(defs: &mut Vec<&'static NodeDef>, node: &Element, child: &Element) -> 
             instead: "remove it".to_owned(),
         });
     }
-    let (name, ty) = (child.require("name")?, child.require("type")?);
+    let (name, ty) = (node.require_of(child, "name")?, node.require_of(child, "type")?);
     let category = defs[0].category;
     let known = defs[0].inputs.iter().map(|input| input.name);
     defs.retain(|def| def.input(name).is_some());
@@ -190,79 +183,4 @@ fn one_of(types: impl Iterator<Item = Type>) -> String {
     let mut names: Vec<&str> = types.map(Type::name).collect();
     names.dedup();
     names.join(" or ")
-}
-
-/// What feeds an input. A connection is preferred to a value, as in MaterialX.
-fn source<'a>(
-    graph: &Graph<'a>,
-    node: NodeRef<'a>,
-    child: &'a Element,
-    input: &'static InputDef,
-) -> Result<Source<'a>, Error> {
-    if let Some(target) = graph.connection(node, child)? {
-        let output = definitions(target.element)?[0].output;
-        if output != input.ty() {
-            let found = format!("{} by its connection", quoted(output.name()));
-            let at = node.element.place_of(child);
-            return Err(Error::WrongType { at, found, expected: input.ty().name().to_owned() });
-        }
-        return match input.accepts {
-            Accepts::DefaultOnly => Err(default_only(node.element, child, input)),
-            _ => Ok(Source::Node(target)),
-        };
-    }
-    match child.attribute("value") {
-        None => Ok(Source::Default),
-        Some(text) => value(node.element, child, input, text).map(Source::Value),
-    }
-}
-
-/// Reads a constant, converts its colour space and checks its range.
-fn value<'a>(
-    node: &Element,
-    child: &'a Element,
-    input: &InputDef,
-    text: &'a str,
-) -> Result<Value<'a>, Error> {
-    let at = || node.place_of(child);
-    let value = Value::parse(input.ty(), text).ok_or_else(|| Error::BadValue {
-        at: at(),
-        value: quoted(text),
-        expected: input.ty().example(),
-    })?;
-    let value = linear(node, child, value)?;
-    if let Some(refusal) = input.accepts.refusal(value) {
-        return Err(Error::OutOfRange { at: at(), message: format!("{} is {value}, {refusal}", input.name) });
-    }
-    let is_default = matches!(input.default, Default::Value(default) if default == value);
-    match input.accepts {
-        Accepts::DefaultOnly if !is_default => Err(default_only(node, child, input)),
-        _ => Ok(value),
-    }
-}
-
-/// Converts a colour from the colour space that it is written in.
-fn linear<'a>(node: &Element, child: &Element, value: Value<'a>) -> Result<Value<'a>, Error> {
-    let (Value::Color3(color), Some(colorspace)) = (value, child.colorspace()) else { return Ok(value) };
-    match COLOR_SPACES.iter().find(|(name, _)| *name == colorspace) {
-        Some((_, to_linear)) => Ok(Value::Color3(color.map(to_linear))),
-        None => Err(Error::ColorSpace {
-            at: node.place_of(child),
-            colorspace: quoted(colorspace),
-            supported: listed(COLOR_SPACES.iter().map(|(name, _)| *name)),
-        }),
-    }
-}
-
-fn default_only(node: &Element, child: &Element, input: &InputDef) -> Error {
-    let default = match input.default {
-        Default::Value(value) => value.to_string(),
-        Default::Geometry(property) => format!("the geometry's {property}"),
-        Default::Unconnected(_) => "unconnected".to_owned(),
-    };
-    Error::Unsupported {
-        at: node.place_of(child),
-        what: format!("anything but the default, {default},"),
-        instead: "remove the input".to_owned(),
-    }
 }

@@ -38,7 +38,7 @@ impl NodeDef {
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct InputDef {
     pub(crate) name: &'static str,
-    pub(crate) default: Default,
+    pub(crate) default: InputDefault,
     pub(crate) accepts: Accepts,
 }
 
@@ -49,16 +49,16 @@ impl InputDef {
 
     pub(crate) const fn ty(&self) -> Type {
         match self.default {
-            Default::Value(value) => value.ty(),
-            Default::Geometry(_) => Type::Vector3,
-            Default::Unconnected(ty) => ty,
+            InputDefault::Value(value) => value.ty(),
+            InputDefault::Geometry(_) => Type::Vector3,
+            InputDefault::Unconnected(ty) => ty,
         }
     }
 }
 
 /// What an input is when the document says nothing.
 #[derive(Clone, Copy, Debug)]
-pub(crate) enum Default {
+pub(crate) enum InputDefault {
     /// A constant.
     Value(Value<'static>),
     /// A direction of the geometry, by the name of MaterialX's geometric property.
@@ -106,7 +106,7 @@ impl Accepts {
 }
 
 const fn input(name: &'static str, default: Value<'static>) -> InputDef {
-    InputDef { name, default: Default::Value(default), accepts: Accepts::Any }
+    InputDef { name, default: InputDefault::Value(default), accepts: Accepts::Any }
 }
 
 const fn float(name: &'static str, default: f32) -> InputDef {
@@ -134,11 +134,11 @@ const fn word(name: &'static str, default: &'static str, words: &'static [&'stat
 }
 
 const fn geometry(name: &'static str, property: &'static str) -> InputDef {
-    InputDef { name, default: Default::Geometry(property), accepts: Accepts::DefaultOnly }
+    InputDef { name, default: InputDefault::Geometry(property), accepts: Accepts::DefaultOnly }
 }
 
 const fn connection(name: &'static str, ty: Type) -> InputDef {
-    InputDef { name, default: Default::Unconnected(ty), accepts: Accepts::Any }
+    InputDef { name, default: InputDefault::Unconnected(ty), accepts: Accepts::Any }
 }
 
 /// Every known node definition.

@@ -1,5 +1,7 @@
 //! Types and constant values of inputs.
 
+use crate::error::quoted;
+
 /// The types of inputs and outputs that the known nodes have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(crate) enum Type {
@@ -101,7 +103,7 @@ impl core::fmt::Display for Value<'_> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Value::Boolean(x) => write!(f, "{x}"),
-            Value::String(x) => write!(f, "{x}"),
+            Value::String(x) => f.write_str(&quoted(x)),
             _ => {
                 let numbers = self.components().iter().map(f32::to_string).collect::<Vec<_>>();
                 f.write_str(&numbers.join(", "))

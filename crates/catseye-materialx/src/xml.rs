@@ -6,7 +6,7 @@ use roxmltree::{Node, ParsingOptions};
 
 use crate::{
     element::{Attribute, Element, Span},
-    error::Error,
+    error::{Error, one_line},
     source::Source,
 };
 
@@ -76,7 +76,7 @@ fn xml_error(source: &Source, cause: &roxmltree::Error) -> Error {
             let mut at = place(0);
             (at.line, at.column) = (position.row, position.col);
             // The position stands in front already.
-            Error::Xml { at, message: cause.to_string().replace(&format!(" at {position}"), "") }
+            Error::Xml { at, message: one_line(&cause.to_string().replace(&format!(" at {position}"), "")) }
         }
     }
 }

@@ -1,0 +1,324 @@
+//! Promise: no document, however hostile, panics, overflows the stack, or takes more than bounded time and memory.
+
+mod support;
+
+use std::time::{Duration, Instant};
+
+use catseye_materialx::{Closure, Document, Error, Material};
+use proptest::{
+    prelude::*,
+    test_runner::{FileFailurePersistence, RngSeed},
+};
+use support::{document, single};
+
+/// Each of the worst documents takes well below a second; the rest is room for a loaded machine.
+const MOST_TIME: Duration = Duration::from_secs(10);
+
+fn read(bytes: &[u8]) -> Result<Vec<Material>, Error> {
+    let start = Instant::now();
+    let materials = Document::from_bytes(bytes, "hostile.mtlx").and_then(|document| document.materials());
+    let time = start.elapsed();
+    assert!(time < MOST_TIME, "{} bytes took {time:?}", bytes.len());
+    materials
+}
+
+fn assert_refused(text: &str, expected: &str) {
+    let message = read(text.as_bytes()).expect_err(expected).to_string();
+    assert!(message.ends_with(expected), "{message}\nlacks {expected}");
+    assert!(message.len() < 400 && !message.contains(char::is_control), "{message}");
+}
+
+fn repeated(count: usize, part: impl FnMut(usize) -> String) -> String {
+    (0..count).map(part).collect()
+}
+
+#[test]
+fn entities_are_refused_before_they_are_expanded() {
+    let levels = repeated(10, |i| format!("<!ENTITY e{}  \"{}\">", i + 1, format!("&e{i};").repeat(10)));
+    let bomb = format!("<!DOCTYPE m [<!ENTITY e0 \"ha\">{levels}]>\n<materialx version=\"&e10;\"/>");
+    assert_refused(&bomb, ":1:1: document type declarations are refused; remove <!DOCTYPE ...>");
+    let file = "<?xml version=\"1.0\"?>\n<!DOCTYPE m [<!ENTITY x SYSTEM \"/etc/passwd\">]><materialx version=\"&x;\"/>";
+    assert_refused(file, ":2:1: document type declarations are refused; remove <!DOCTYPE ...>");
+}
+
+#[test]
+fn nesting_is_bounded() {
+    for count in [33, 10_000, 200_000] {
+        let text = format!("{}{}", "<materialx>".repeat(count), "</materialx>".repeat(count));
+        assert_refused(
+            &text,
+            "more than 32 levels of elements inside elements; simplify or split the document",
+        );
+    }
+    let text = "<a>".repeat(5_000_000);
+    assert_refused(&text, "more than 500000 XML nodes; simplify or split the document");
+}
+
+#[test]
+fn what_the_parser_needs_quadratic_time_for_is_refused() {
+    let attributes = repeated(1_000_000, |i| format!(" a{i}=''"));
+    let limit = "more than 512 quotes before the next <; simplify or split the document";
+    assert_refused(&format!("<materialx{attributes}/>"), limit);
+    let namespaces = repeated(65_000, |i| format!("<a xmlns:n{i}='{i}'>"));
+    let limit = "more than 64 namespace declarations; simplify or split the document";
+    assert_refused(&namespaces, limit);
+}
+
+#[test]
+fn the_worst_that_the_limits_let_through_is_quick() {
+    let attributes = repeated(255, |i| format!(" a{i:x}=''"));
+    let elements = format!("<a{attributes}/>").repeat(9_000);
+    let text = document(&format!("<add name=\"bsdf\" type=\"BSDF\"/>{elements}"));
+    assert!(text.len() < 16 << 20);
+    read(text.as_bytes()).unwrap();
+
+    let materials = repeated(60_000, |i| {
+        format!(
+            "<surfacematerial name=\"m{i}\" type=\"material\"><input name=\"surfaceshader\" type=\"surfaceshader\" nodename=\"s\"/></surfacematerial>"
+        )
+    });
+    let text = document(&format!("<add name=\"bsdf\" type=\"BSDF\"/>{materials}"));
+    assert_eq!(read(text.as_bytes()).unwrap().len(), 60_001);
+}
+
+#[test]
+fn long_attributes_are_refused_except_documentation() {
+    let long = "x".repeat(5000);
+    read(single("add", "").replace("<add", &format!("<add doc=\"{long}\"")).as_bytes()).unwrap();
+    let limit = ":2:1: more than 4096 bytes in an attribute; simplify or split the document";
+    assert_refused(&single("add", "").replace("<add", &format!("<add uiname=\"{long}\"")), limit);
+}
+
+/// `add` nodes `bsdf`, `n1`, `n2`, ... with every one feeding the one before.
+fn chain(length: usize, inputs: &[&str]) -> String {
+    let name = |i: usize| if i == 0 { "bsdf".to_owned() } else { format!("n{i}") };
+    let input =
+        |input: &str, i| format!("<input name=\"{input}\" type=\"BSDF\" nodename=\"{}\"/>", name(i + 1));
+    let nodes = repeated(length - 1, |i| {
+        let inputs: String = inputs.iter().map(|name| input(name, i)).collect();
+        format!("<add name=\"{}\" type=\"BSDF\">{inputs}</add>\n", name(i))
+    });
+    document(&format!("{nodes}<add name=\"{}\" type=\"BSDF\"/>", name(length - 1)))
+}
+
+#[test]
+fn chains_are_bounded() {
+    let [material] = read(chain(64, &["in1"]).as_bytes()).unwrap().try_into().unwrap();
+    assert_eq!(depth(&material.bsdf), 64);
+    let limit = "more than 64 BSDF nodes in a chain; simplify or split the document";
+    assert_refused(&chain(65, &["in1"]), &format!("add \"n64\": {limit}"));
+    assert_refused(&chain(50_000, &["in1"]), &format!("add \"n64\": {limit}"));
+}
+
+#[test]
+fn few_nodes_that_make_exponentially_many_closures_are_refused() {
+    assert_eq!(read(chain(16, &["in1", "in2"]).as_bytes()).unwrap().len(), 1);
+    let limit = "more than 65536 closures in all materials together; simplify or split the document";
+    assert_refused(&chain(60, &["in1", "in2"]), limit);
+}
+
+fn depth(closure: &Closure) -> usize {
+    let children: &[&Closure] = match closure {
+        Closure::Mix { foreground, background, .. } => &[foreground, background],
+        Closure::Layer { top, base } => &[top, base],
+        Closure::Add { a, b } => &[a, b],
+        Closure::Multiply { closure, .. } => &[closure],
+        Closure::None => return 0,
+        _ => &[],
+    };
+    1 + children.iter().map(|child| depth(child)).max().unwrap_or(0)
+}
+
+fn config() -> ProptestConfig {
+    ProptestConfig {
+        cases: 512,
+        rng_seed: RngSeed::Fixed(0x0ca7_5e7e),
+        failure_persistence: Some(Box::new(FileFailurePersistence::Off)),
+        ..ProptestConfig::default()
+    }
+}
+
+const SHEETING: &str = include_str!("../../../materials/sheeting.mtlx");
+const TAPE: &str = include_str!("../../../materials/anisotropic_tape.mtlx");
+
+/// Pieces that a parser may stumble over.
+const PIECES: &[&str] = &[
+    "",
+    "\0",
+    "<",
+    ">",
+    "/>",
+    "\"",
+    "'",
+    "&",
+    "&amp;",
+    "&#0;",
+    "&#x10ffff;",
+    "<!--",
+    "-->",
+    "<![CDATA[",
+    "]]>",
+    "<?",
+    "<!DOCTYPE",
+    "xmlns=\"\"",
+    "xml:",
+    "\u{feff}",
+    "\u{1f9ff}",
+    "nan",
+    "-inf",
+    "1e39",
+    "1e-46",
+    ",",
+    " , ",
+    "-",
+    "=",
+    "nodename",
+    "nodegraph",
+    "output",
+    "value",
+    "type",
+    "name",
+    "BSDF",
+    "color3",
+    "srgb_texture",
+    "materialx",
+];
+
+fn mutated() -> impl Strategy<Value = Vec<u8>> {
+    let edit = (any::<prop::sample::Index>(), 0_usize..40, prop::sample::select(PIECES));
+    let edits = prop::collection::vec(edit, 1..8);
+    (prop::sample::select(&[SHEETING, TAPE][..]), edits).prop_map(|(text, edits)| {
+        let mut bytes = text.as_bytes().to_vec();
+        for (at, length, piece) in edits {
+            let start = at.index(bytes.len());
+            let end = (start + length).min(bytes.len());
+            bytes.splice(start..end, piece.bytes());
+        }
+        bytes
+    })
+}
+
+/// Words of a well-formed document in any order: what a mutated text hardly ever is.
+fn any_graph() -> impl Strategy<Value = String> {
+    const CATEGORIES: &[&str] = &[
+        "retro_reflective_bsdf",
+        "oren_nayar_diffuse_bsdf",
+        "dielectric_bsdf",
+        "mix",
+        "layer",
+        "add",
+        "multiply",
+        "surface",
+        "surfacematerial",
+        "image",
+    ];
+    const INPUTS: &[&str] = &[
+        "weight",
+        "roughness_u",
+        "tint",
+        "tangent_u",
+        "roughness",
+        "color",
+        "fg",
+        "bg",
+        "mix",
+        "top",
+        "base",
+        "in1",
+        "in2",
+        "bsdf",
+        "surfaceshader",
+    ];
+    const TYPES: &[&str] =
+        &["BSDF", "BSDF", "BSDF", "float", "color3", "vector2", "surfaceshader", "material"];
+    const SOURCES: &[&str] = &[
+        "nodename=\"bsdf\"",
+        "nodename=\"n0\"",
+        "nodename=\"n1\"",
+        "nodename=\"n2\"",
+        "nodename=\"s\"",
+        "value=\"0.5\"",
+        "value=\"0.1, 0.2, 0.3\"",
+        "value=\"inf\"",
+        "value=\"-1\"",
+        "value=\"\"",
+    ];
+    let select = prop::sample::select::<&'static str>;
+    let input = (select(INPUTS), select(TYPES), select(SOURCES))
+        .prop_map(|(name, ty, source)| format!("<input name=\"{name}\" type=\"{ty}\" {source}/>"));
+    let node = (select(CATEGORIES), select(TYPES), prop::collection::vec(input, 0..4));
+    prop::collection::vec(node, 1..5).prop_map(|nodes| {
+        let mut nodes = nodes.into_iter();
+        document(&repeated(nodes.len(), |i| {
+            let (category, ty, inputs) = nodes.next().unwrap_or(("add", "BSDF", Vec::new()));
+            let name = if i == 0 { "bsdf".to_owned() } else { format!("n{}", i - 1) };
+            format!("<{category} name=\"{name}\" type=\"{ty}\">{}</{category}>", inputs.concat())
+        }))
+    })
+}
+
+/// Whatever was read keeps what closures promise; whatever was not gives one line.
+fn check(bytes: &[u8]) -> Result<(), TestCaseError> {
+    match read(bytes) {
+        Ok(materials) => {
+            prop_assert!(!materials.is_empty());
+            for material in materials {
+                prop_assert!(depth(&material.bsdf) <= 64);
+                prop_assert!((0.0..=1.0).contains(&material.opacity));
+                check_ranges(&material.bsdf)?;
+            }
+        }
+        Err(error) => {
+            let message = error.to_string();
+            prop_assert!(
+                message.starts_with("hostile.mtlx:") && !message.contains(char::is_control),
+                "{message:?}"
+            );
+            prop_assert!(message.len() < 1000, "{message:?}");
+        }
+    }
+    Ok(())
+}
+
+fn check_ranges(closure: &Closure) -> Result<(), TestCaseError> {
+    match closure {
+        Closure::RetroReflective { params, .. } => prop_assert!(params.validate().is_ok()),
+        Closure::OrenNayarDiffuse { color, .. } => {
+            prop_assert!(color.iter().all(|channel| (0.0..=1.0).contains(channel)));
+        }
+        Closure::Mix { foreground, background, amount } => {
+            prop_assert!((0.0..=1.0).contains(amount));
+            check_ranges(foreground)?;
+            check_ranges(background)?;
+        }
+        _ => {}
+    }
+    Ok(())
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    #[test]
+    fn any_bytes(bytes in prop::collection::vec(any::<u8>(), 0..2000)) {
+        check(&bytes)?;
+    }
+
+    #[test]
+    fn mutated_documents(bytes in mutated()) {
+        check(&bytes)?;
+    }
+
+    #[test]
+    fn any_graphs(text in any_graph()) {
+        check(text.as_bytes())?;
+    }
+
+    #[test]
+    fn any_values(value in "[-+.,0-9einfaN ]{0,20}") {
+        let input = |name, ty| format!("<input name=\"{name}\" type=\"{ty}\" value=\"{value}\"/>");
+        check(single("retro_reflective_bsdf", &input("roughness_u", "float")).as_bytes())?;
+        check(single("retro_reflective_bsdf", &input("tangent_u", "vector3")).as_bytes())?;
+        check(single("oren_nayar_diffuse_bsdf", &input("color", "color3")).as_bytes())?;
+    }
+}
