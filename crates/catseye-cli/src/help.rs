@@ -1,19 +1,60 @@
-//! The examples and the table format that `--help` ends with.
+//! The examples that `--help` ends with, and the format of the tables. A test runs every example.
 
 /// Example of `catseye eval`.
 pub(crate) const EVAL: &str = "\
 Example:
-  $ printf 'roughness_u,wo_x,wo_y,wo_z,wi_x,wi_y,wi_z\\n0.15,0,0,1,0,0,1\\n' | catseye eval
-  roughness_u,wo_x,wo_y,wo_z,wi_x,wi_y,wi_z,f_r,f_g,f_b,pdf
-  0.15,0,0,1,0,0,1,7.153...";
+  $ printf 'name,roughness_u,wo_x,wo_y,wo_z,wi_x,wi_y,wi_z\\na,0.15,0,0,1,0,0,1\\n' | catseye eval
+  name,roughness_u,wo_x,wo_y,wo_z,wi_x,wi_y,wi_z,f_r,f_g,f_b,pdf
+  a,0.15,0,0,1,0,0,1,7.153130497852406,7.153130497852406,7.153130497852406,7.153130497852406";
 
 /// Example of `catseye sample`.
-pub(crate) const SAMPLE: &str = "x";
+pub(crate) const SAMPLE: &str = "\
+Example:
+  $ printf 'roughness_u,wo_x,wo_y,wo_z,u1,u2,u3\\n0,0.6,0,0.8,0.1,0.2,0.3\\n' | catseye sample
+  roughness_u,wo_x,wo_y,wo_z,u1,u2,u3,wi_x,wi_y,wi_z,weight_r,weight_g,weight_b,pdf,lobe
+  0,0.6,0,0.8,0.1,0.2,0.3,0.6,0.0,0.8,1.0,1.0,1.0,1.0,dirac";
 
 /// Example of `catseye albedo`.
-pub(crate) const ALBEDO: &str = "x";
+pub(crate) const ALBEDO: &str = "\
+Example:
+  $ printf 'roughness_u,wo_x,wo_y,wo_z\\n1,0,0,1\\n' | catseye albedo
+  roughness_u,wo_x,wo_y,wo_z,albedo_r,albedo_g,albedo_b
+  1,0,0,1,0.3553233343868754,0.3553233343868754,0.3553233343868754";
 
-/// An example followed by the format of the tables.
+/// Example of `catseye plot`.
+pub(crate) const PLOT: &str = "\
+Example:
+  $ catseye plot lobe --roughness 0.3 -o lobe.svg
+  wrote lobe.svg (1338 x 409)";
+
+/// Example of `catseye plot lobe`.
+pub(crate) const PLOT_LOBE: &str = "\
+Example:
+  $ catseye plot lobe --roughness 0.15 --theta 0,45,75 --axes cartesian -o lobe.png
+  wrote lobe.png (1338 x 409)";
+
+/// Example of `catseye plot albedo`.
+pub(crate) const PLOT_ALBEDO: &str = "\
+Example:
+  $ catseye plot albedo --roughness 0.1,0.5,1,inf -o albedo.svg
+  wrote albedo.svg (960 x 640)";
+
+const TABLE: &str = "\
+Table format:
+  A header line, then one row per query; columns in any order. Inputs:
+    roughness_u                      in [0, inf]; `inf` is legal
+    roughness_v                      [default: as roughness_u]
+    tint_r, tint_g, tint_b           in [0, 1] [default: 1]
+    multiscatter_tint_r, _g, _b      in [0, 1] [default: 0]
+    wo_x, wo_y, wo_z                 direction towards the viewer
+    wi_x, wi_y, wi_z                 direction towards the light (eval)
+    u1, u2, u3                       uniform numbers in [0, 1) (sample)
+  Directions are unit vectors (within 0.001) that point away from the surface; z is the shading normal, x the tangent.
+  An empty cell is a missing one. Other columns are carried through; one with the name of an added column is
+  replaced. Numbers are printed with the digits that give the same value back. A bad row is an error that names
+  line and column, and then there is no output at all.";
+
+/// An example after the format of the tables.
 pub(crate) fn table(example: &str) -> String {
-    example.to_owned()
+    format!("{TABLE}\n\n{example}")
 }

@@ -22,7 +22,7 @@ impl Input {
         let (name, mut text) = match file {
             Some(path) if path != Path::new("-") => {
                 let name = path.display().to_string();
-                let text = fs::read(path).with_context(|| format!("{name}: can't read"))?;
+                let text = fs::read(path).with_context(|| format!("{name}: can't be read"))?;
                 (name, text)
             }
             _ => ("<stdin>".to_owned(), read_stdin()?),
@@ -72,7 +72,7 @@ fn read_stdin() -> anyhow::Result<Vec<u8>> {
         return Err(Usage(hint.to_owned()).into());
     }
     let mut text = Vec::new();
-    stdin.read_to_end(&mut text).context("<stdin>: can't read")?;
+    stdin.read_to_end(&mut text).context("<stdin>: can't be read")?;
     Ok(text)
 }
 

@@ -1,14 +1,18 @@
 //! The `catseye` command: one verb, one file under `verbs`.
 
 mod args;
+mod canvas;
 mod failure;
+mod figure;
 mod help;
 mod input;
 mod layout;
 mod output;
+mod plot;
 mod point;
 mod progress;
 mod query;
+mod report;
 mod table;
 mod verbs;
 

@@ -27,14 +27,14 @@ impl OutputFile {
     pub(crate) fn create(path: &Path) -> anyhow::Result<Self> {
         // Behind a link the target is replaced, not the link.
         let path = fs::canonicalize(path).unwrap_or_else(|_| path.to_owned());
-        let sink = open(&path).with_context(|| format!("{}: can't write", path.display()))?;
+        let sink = open(&path).with_context(|| format!("{}: can't be written", path.display()))?;
         Ok(Self { path, sink })
     }
 
     /// Puts the file in its place.
     pub(crate) fn commit(self) -> anyhow::Result<()> {
         let path = self.path;
-        finish(self.sink, &path).with_context(|| format!("{}: can't write", path.display()))
+        finish(self.sink, &path).with_context(|| format!("{}: can't be written", path.display()))
     }
 }
 

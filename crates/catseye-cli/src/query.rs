@@ -174,7 +174,8 @@ impl Row<'_> {
                 return Err(RowError::cell(name, format!("{value} is outside [0, 1)")));
             }
             // The nearest f32 of a number just below 1 is 1.
-            *u = T::from_f64(value).min(T::BELOW_ONE);
+            let nearest = T::from_f64(value);
+            *u = if nearest < T::ONE { nearest } else { T::BELOW_ONE };
         }
         Ok(u)
     }

@@ -1,0 +1,134 @@
+//! The albedo of single scattering over the angle of incidence.
+
+use std::f64::consts::FRAC_PI_2;
+
+use catseye::{AnyLobe, Lobe as _, Model, Params, Vec3};
+use plotters::prelude::{DrawingBackend, RGBColor};
+
+use super::axes::Axes;
+use crate::canvas::{Canvas, GRID, INK, Lettering, MUTED};
+use crate::figure::Figure;
+
+/// The roughnesses that are shown if none are asked for.
+pub(crate) const ROUGHNESSES: [f64; 9] = [0.05, 0.15, 0.3, 0.5, 0.7, 1.0, 1.5, 3.0, f64::INFINITY];
+
+/// Points of a curve.
+const STEPS: u32 = 90;
+/// Least distance between the labels at the curves' ends.
+const LABEL_STEP: f64 = 22.0;
+const SIZE: (u32, u32) = (960, 640);
+
+/// The computed curves.
+#[derive(Debug)]
+pub(crate) struct AlbedoFigure {
+    model: Model,
+    curves: Vec<Curve>,
+}
+
+#[derive(Debug)]
+struct Curve {
+    roughness: f64,
+    color: RGBColor,
+    /// Angle of incidence in degrees, albedo.
+    values: Vec<(f64, f64)>,
+}
+
+impl AlbedoFigure {
+    /// Computes the curves.
+    pub(crate) fn new(model: Model, roughnesses: &[f64]) -> anyhow::Result<Self> {
+        let mut curves = Vec::new();
+        for (i, &roughness) in roughnesses.iter().enumerate() {
+            let lobe = AnyLobe::new(model, &Params::isotropic(roughness))?;
+            let value = |step: u32| {
+                // The horizon itself belongs to neither side.
+                let theta = (f64::from(step) / f64::from(STEPS) * FRAC_PI_2).min(FRAC_PI_2 - 1e-6);
+                (theta.to_degrees(), lobe.albedo(Vec3::from_angles(theta, 0.0))[0])
+            };
+            let share = i as f64 / (roughnesses.len().max(2) - 1) as f64;
+            curves.push(Curve { roughness, color: shade(share), values: (0..=STEPS).map(value).collect() });
+        }
+        Ok(Self { model, curves })
+    }
+}
+
+/// A colour between dark blue and orange, all of them legible on white.
+fn shade(share: f64) -> RGBColor {
+    const STOPS: [[f64; 3]; 5] = [
+        [38.0, 38.0, 110.0],
+        [40.0, 110.0, 160.0],
+        [32.0, 150.0, 130.0],
+        [140.0, 150.0, 30.0],
+        [214.0, 96.0, 20.0],
+    ];
+    let position = share.clamp(0.0, 1.0) * (STOPS.len() - 1) as f64;
+    let below = (position as usize).min(STOPS.len() - 2);
+    let t = position - below as f64;
+    let [r, g, b] = [0, 1, 2].map(|c| (STOPS[below][c] * (1.0 - t) + STOPS[below + 1][c] * t).round() as u8);
+    RGBColor(r, g, b)
+}
+
+impl Figure for AlbedoFigure {
+    fn size(&self) -> (u32, u32) {
+        SIZE
+    }
+
+    fn draw<DB: DrawingBackend>(&self, canvas: &Canvas<'_, DB>) -> anyhow::Result<()>
+    where
+        DB::ErrorType: 'static,
+    {
+        let title = format!("Share of the light that single scattering sends back: {}", self.model.name());
+        let subtitle = "without compensation (multiscatter_tint = 0) and with tint = 1, equal roughness in both directions";
+        canvas.text(&title, (24.0, 32.0), Lettering::left(22.0, INK))?;
+        canvas.text(subtitle, (24.0, 60.0), Lettering::left(15.0, MUTED))?;
+        let frame = Axes { origin: (64.0, 122.0), size: (740.0, 440.0), x: 0.0..=90.0, y: 0.0..=1.0 };
+        let x_ticks: Vec<f64> = (0..=6).map(|i| 15.0 * f64::from(i)).collect();
+        let y_ticks: Vec<f64> = (0..=5).map(|i| 0.2 * f64::from(i)).collect();
+        frame.draw(canvas, [&x_ticks, &y_ticks], ["angle of incidence", "directional albedo"])?;
+        for curve in &self.curves {
+            let points: Vec<_> = curve.values.iter().map(|&value| frame.place(value)).collect();
+            canvas.line(&points, curve.color, 2.5)?;
+        }
+        self.draw_labels(canvas, &frame)
+    }
+}
+
+impl AlbedoFigure {
+    /// The roughness beside each curve's end, moved apart where curves end close together.
+    fn draw_labels<DB: DrawingBackend>(&self, canvas: &Canvas<'_, DB>, frame: &Axes) -> anyhow::Result<()>
+    where
+        DB::ErrorType: 'static,
+    {
+        let mut ends: Vec<_> = self
+            .curves
+            .iter()
+            .filter_map(|curve| Some((curve, frame.place(*curve.values.last()?))))
+            .collect();
+        ends.sort_by(|(_, a), (_, b)| a.1.total_cmp(&b.1));
+        let heights = spread(&ends.iter().map(|(_, end)| end.1).collect::<Vec<_>>(), LABEL_STEP);
+        let right = frame.origin.0 + frame.size.0;
+        canvas.text("roughness", (right + 34.0, frame.origin.1 - 22.0), Lettering::left(15.0, INK))?;
+        for ((curve, end), y) in ends.into_iter().zip(heights) {
+            canvas.line(&[end, (right + 28.0, y)], GRID, 1.0)?;
+            let label = if curve.roughness.is_infinite() {
+                "\u{221e}".to_owned()
+            } else {
+                curve.roughness.to_string()
+            };
+            canvas.text(&label, (right + 34.0, y), Lettering::left(15.0, curve.color))?;
+        }
+        Ok(())
+    }
+}
+
+/// Ascending positions at least `step` apart, as near to the given ones as a sweep in each direction gets them.
+fn spread(positions: &[f64], step: f64) -> Vec<f64> {
+    let mut down: Vec<f64> = Vec::with_capacity(positions.len());
+    for &position in positions {
+        down.push(down.last().map_or(position, |last| position.max(last + step)));
+    }
+    let mut up: Vec<f64> = Vec::with_capacity(positions.len());
+    for &position in positions.iter().rev() {
+        up.push(up.last().map_or(position, |last| position.min(last - step)));
+    }
+    down.iter().zip(up.iter().rev()).map(|(a, b)| 0.5 * (a + b)).collect()
+}

@@ -1,0 +1,73 @@
+//! A rectangular diagram's frame: grid, ticks and titles.
+
+use std::ops::RangeInclusive;
+
+use plotters::prelude::DrawingBackend;
+
+use crate::canvas::{Canvas, GRID, INK, Lettering, MUTED, Point};
+
+/// The rectangle that a diagram's data live in.
+#[derive(Clone, Debug)]
+pub(crate) struct Axes {
+    /// Left and top edge in the drawing.
+    pub(crate) origin: Point,
+    /// Width and height in the drawing.
+    pub(crate) size: Point,
+    /// Values from left to right.
+    pub(crate) x: RangeInclusive<f64>,
+    /// Values from bottom to top.
+    pub(crate) y: RangeInclusive<f64>,
+}
+
+impl Axes {
+    /// Where a pair of values lies in the drawing.
+    pub(crate) fn place(&self, (x, y): Point) -> Point {
+        let share =
+            |value: f64, range: &RangeInclusive<f64>| (value - range.start()) / (range.end() - range.start());
+        let ((left, top), (width, height)) = (self.origin, self.size);
+        (left + width * share(x, &self.x), top + height * (1.0 - share(y, &self.y)))
+    }
+
+    /// Draws grid and labels; the y axis' title stands above it, where it can be read without turning one's head.
+    pub(crate) fn draw<DB: DrawingBackend>(
+        &self,
+        canvas: &Canvas<'_, DB>,
+        [x_ticks, y_ticks]: [&[f64]; 2],
+        [x_title, y_title]: [&str; 2],
+    ) -> anyhow::Result<()>
+    where
+        DB::ErrorType: 'static,
+    {
+        let ((left, top), (width, height)) = (self.origin, self.size);
+        let bottom = top + height;
+        for &x in x_ticks {
+            let (at, _) = self.place((x, *self.y.start()));
+            canvas.line(&[(at, top), (at, bottom)], GRID, 1.0)?;
+            canvas.text(&format!("{}°", signed(x)), (at, bottom + 16.0), Lettering::center(14.0, MUTED))?;
+        }
+        for &y in y_ticks {
+            let (_, at) = self.place((*self.x.start(), y));
+            canvas.line(&[(left, at), (left + width, at)], GRID, 1.0)?;
+            canvas.text(&signed(y), (left - 8.0, at), Lettering::right(14.0, MUTED))?;
+        }
+        canvas.line(&[(left, top), (left, bottom), (left + width, bottom)], INK, 1.5)?;
+        canvas.text(x_title, (left + width / 2.0, bottom + 42.0), Lettering::center(15.0, INK))?;
+        canvas.text(y_title, (left - 30.0, top - 22.0), Lettering::left(15.0, INK))
+    }
+}
+
+/// A number with a proper minus sign.
+pub(crate) fn signed(value: f64) -> String {
+    // The sum of steps such as 0.1 is not a multiple of them.
+    let rounded = (value * 1e6).round() / 1e6;
+    rounded.to_string().replace('-', "\u{2212}")
+}
+
+/// Multiples of 1, 2 or 5 times a power of ten up to `greatest`, about `count` of them, without 0.
+pub(crate) fn ticks(greatest: f64, count: f64) -> Vec<f64> {
+    let power = 10.0_f64.powf((greatest / count).log10().floor());
+    let step =
+        [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * power).find(|step| greatest / step <= count + 0.5);
+    let step = step.unwrap_or(10.0 * power);
+    (1..).map(|i| f64::from(i) * step).take_while(|&value| value <= greatest * 1.000_001).collect()
+}

@@ -1,0 +1,211 @@
+//! The lobes' shape: f cos in the plane of incidence.
+
+use catseye::{AnyLobe, Lobe as _, Model, Params, Vec3};
+use plotters::prelude::{DrawingBackend, RGBColor};
+
+use super::axes::{Axes as Frame, ticks};
+use super::polar;
+use crate::canvas::{Canvas, INK, Lettering, MUTED};
+use crate::figure::Figure;
+
+/// Steps of a curve between the horizons.
+const STEPS: i32 = 1440;
+/// Steps within [`PEAK`] half widths of the retro direction, where a narrow lobe lives.
+const PEAK_STEPS: i32 = 300;
+/// See [`PEAK_STEPS`].
+const PEAK: f64 = 6.0;
+
+const PANEL_WIDTH: f64 = 430.0;
+const MARGIN: f64 = 24.0;
+const TOP: f64 = 84.0;
+const BOTTOM: f64 = 72.0;
+
+/// The shape of the diagram.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+pub(crate) enum Axes {
+    /// The distance from the centre is the value.
+    #[default]
+    Polar,
+    /// The value over the angle.
+    Cartesian,
+}
+
+/// What to plot.
+#[derive(Clone, Debug)]
+pub(crate) struct Request {
+    pub(crate) roughness: [f64; 2],
+    pub(crate) theta_deg: Vec<f64>,
+    pub(crate) phi_deg: f64,
+    pub(crate) models: Vec<Model>,
+    pub(crate) axes: Axes,
+}
+
+/// The computed curves.
+#[derive(Debug)]
+pub(crate) struct LobeFigure {
+    request: Request,
+    panels: Vec<Panel>,
+    greatest: f64,
+}
+
+/// The curves for one direction of the light.
+#[derive(Debug)]
+pub(crate) struct Panel {
+    pub(crate) theta_deg: f64,
+    pub(crate) curves: Vec<Curve>,
+}
+
+/// One model's values.
+#[derive(Debug)]
+pub(crate) struct Curve {
+    model: Model,
+    /// Angle from the normal in degrees, positive on the light's side, and f cos there.
+    pub(crate) values: Vec<(f64, f64)>,
+}
+
+impl Curve {
+    /// The curve's colour and width: a narrow line stays visible on a wide one.
+    pub(crate) fn style(&self) -> (RGBColor, f64) {
+        style(self.model)
+    }
+}
+
+/// Colours from Okabe and Ito's palette, which colour-blind people can tell apart.
+fn style(model: Model) -> (RGBColor, f64) {
+    match model {
+        Model::Reciprocal => (RGBColor(0x00, 0x72, 0xb2), 2.5),
+        Model::Edwards => (RGBColor(0xe6, 0x9f, 0x00), 5.0),
+        Model::BackVector => (RGBColor(0x00, 0x9e, 0x73), 2.5),
+    }
+}
+
+fn legend(model: Model) -> &'static str {
+    match model {
+        Model::Reciprocal => "reciprocal: the proposal's lobe",
+        Model::Edwards => "edwards: the paper's lobe",
+        Model::BackVector => "back-vector: MaterialX 1.39.5, roughness as GGX alpha",
+    }
+}
+
+impl LobeFigure {
+    /// Computes the curves.
+    pub(crate) fn new(request: Request) -> anyhow::Result<Self> {
+        let [roughness_u, roughness_v] = request.roughness;
+        let params = Params::anisotropic(roughness_u, roughness_v);
+        let phi = request.phi_deg.to_radians();
+        let width = roughness_u.min(roughness_v).min(1.0);
+        let mut panels = Vec::new();
+        for &theta_deg in &request.theta_deg {
+            let angles = angles(theta_deg, width.to_degrees());
+            let mut curves = Vec::new();
+            // Wide lines first.
+            for &model in request.models.iter().rev() {
+                let lobe = AnyLobe::new(model, &params)?;
+                let wo = Vec3::from_angles(theta_deg.to_radians(), phi);
+                let value = |&angle: &f64| {
+                    let wi = Vec3::from_angles(angle.to_radians(), phi);
+                    (angle, lobe.eval(wo, wi)[0] * wi.z.max(0.0))
+                };
+                curves.push(Curve { model, values: angles.iter().map(value).collect() });
+            }
+            panels.push(Panel { theta_deg, curves });
+        }
+        let values = panels.iter().flat_map(|panel| &panel.curves).flat_map(|curve| &curve.values);
+        let greatest = values.map(|&(_, value)| value).fold(0.0, f64::max);
+        Ok(Self { request, panels, greatest })
+    }
+
+    fn title(&self) -> String {
+        let [u, v] = self.request.roughness;
+        let across = if u == v { String::new() } else { format!(" along and {v} across the tangent") };
+        let plane = match self.request.phi_deg {
+            0.0 => String::new(),
+            phi => format!(", plane of incidence {phi}° from the tangent"),
+        };
+        format!("Light sent back by the lobe of roughness {u}{across}{plane}")
+    }
+}
+
+/// Angles of a curve in degrees: everywhere, and closer around the retro direction.
+fn angles(theta_deg: f64, width_deg: f64) -> Vec<f64> {
+    let even = (0..=STEPS).map(|i| 180.0 * f64::from(i) / f64::from(STEPS) - 90.0);
+    let near = (-PEAK_STEPS..=PEAK_STEPS)
+        .map(|i| theta_deg + PEAK * width_deg * f64::from(i) / f64::from(PEAK_STEPS));
+    let mut all: Vec<f64> = even.chain(near.filter(|angle| angle.abs() <= 90.0)).collect();
+    all.sort_by(f64::total_cmp);
+    all
+}
+
+impl Figure for LobeFigure {
+    fn size(&self) -> (u32, u32) {
+        let panels = self.panels.len().max(2) as f64;
+        ((2.0 * MARGIN + panels * PANEL_WIDTH) as u32, (TOP + polar::HEIGHT + BOTTOM) as u32)
+    }
+
+    fn draw<DB: DrawingBackend>(&self, canvas: &Canvas<'_, DB>) -> anyhow::Result<()>
+    where
+        DB::ErrorType: 'static,
+    {
+        let subtitle = "f(\u{3c9}o, \u{3c9}i) cos \u{3b8}i in 1/sr over the outgoing angle \u{3b8}i, in the plane of incidence; \
+                        all panels to one scale";
+        canvas.text(&self.title(), (MARGIN, 32.0), Lettering::left(24.0, INK))?;
+        canvas.text(subtitle, (MARGIN, 62.0), Lettering::left(15.0, MUTED))?;
+        for (i, panel) in self.panels.iter().enumerate() {
+            let left = MARGIN + PANEL_WIDTH * i as f64;
+            match self.request.axes {
+                Axes::Polar => polar::draw(canvas, panel, left + PANEL_WIDTH / 2.0, TOP, self.greatest)?,
+                Axes::Cartesian => self.draw_cartesian(canvas, panel, left)?,
+            }
+        }
+        self.draw_legend(canvas)
+    }
+}
+
+impl LobeFigure {
+    fn draw_cartesian<DB: DrawingBackend>(
+        &self,
+        canvas: &Canvas<'_, DB>,
+        panel: &Panel,
+        left: f64,
+    ) -> anyhow::Result<()>
+    where
+        DB::ErrorType: 'static,
+    {
+        let top = self.greatest * 1.05;
+        let frame = Frame {
+            origin: (left + 44.0, TOP + 40.0),
+            size: (PANEL_WIDTH - 64.0, polar::HEIGHT - 96.0),
+            x: -90.0..=90.0,
+            y: 0.0..=top,
+        };
+        let mut values = ticks(top, 5.0);
+        values.insert(0, 0.0);
+        let title = format!("light at {}°", panel.theta_deg);
+        frame.draw(
+            canvas,
+            [&[-90.0, -60.0, -30.0, 0.0, 30.0, 60.0, 90.0], &values],
+            ["outgoing angle", &title],
+        )?;
+        for curve in &panel.curves {
+            let (color, width) = curve.style();
+            let points: Vec<_> = curve.values.iter().map(|&value| frame.place(value)).collect();
+            canvas.line(&points, color, width)?;
+        }
+        Ok(())
+    }
+
+    fn draw_legend<DB: DrawingBackend>(&self, canvas: &Canvas<'_, DB>) -> anyhow::Result<()>
+    where
+        DB::ErrorType: 'static,
+    {
+        let mut x = MARGIN;
+        let y = f64::from(self.size().1) - 28.0;
+        for &model in &self.request.models {
+            let (color, width) = style(model);
+            canvas.line(&[(x, y), (x + 34.0, y)], color, width)?;
+            canvas.text(legend(model), (x + 44.0, y), Lettering::left(15.0, INK))?;
+            x += 44.0 + canvas.width(legend(model), 15.0)? + 32.0;
+        }
+        Ok(())
+    }
+}

@@ -1,0 +1,98 @@
+//! A half disk: the direction is the angle, the value the distance from the centre.
+
+use plotters::prelude::DrawingBackend;
+
+use super::axes::{signed, ticks};
+use super::lobe::Panel;
+use crate::canvas::{Canvas, GRID, INK, Lettering, MUTED, Point};
+
+/// Radius of the half disk.
+const RADIUS: f64 = 180.0;
+/// Distance of the angles' labels from the edge.
+const LABEL: f64 = 16.0;
+/// Angles in degrees nearer to the light than this have no room for a label.
+const ARROW_WIDTH: f64 = 8.0;
+/// Height of a panel below its upper edge.
+pub(crate) const HEIGHT: f64 = RADIUS + 4.6 * LABEL;
+
+/// Draws a panel with its centre at `x` and its upper edge at `top`; the edge stands for a bit more than `greatest`.
+pub(crate) fn draw<DB: DrawingBackend>(
+    canvas: &Canvas<'_, DB>,
+    panel: &Panel,
+    x: f64,
+    top: f64,
+    greatest: f64,
+) -> anyhow::Result<()>
+where
+    DB::ErrorType: 'static,
+{
+    let center = (x, top + 2.0 * LABEL + RADIUS);
+    let edge = greatest * 1.05;
+    draw_grid(canvas, center, edge, panel.theta_deg)?;
+    let caption = format!("light at {}°", panel.theta_deg);
+    canvas.text(&caption, (center.0, center.1 + 2.6 * LABEL), Lettering::center(15.0, INK))?;
+    for curve in &panel.curves {
+        let (color, width) = curve.style();
+        let points: Vec<_> =
+            curve.values.iter().map(|&(angle, value)| place(center, angle, RADIUS * value / edge)).collect();
+        canvas.line(&points, color, width)?;
+    }
+    draw_light(canvas, center, panel.theta_deg)
+}
+
+/// The point at an angle in degrees from the vertical and a distance.
+fn place((x, y): Point, angle_deg: f64, distance: f64) -> Point {
+    let (sin, cos) = angle_deg.to_radians().sin_cos();
+    (x + distance * sin, y - distance * cos)
+}
+
+fn draw_grid<DB: DrawingBackend>(
+    canvas: &Canvas<'_, DB>,
+    center: Point,
+    edge: f64,
+    light_deg: f64,
+) -> anyhow::Result<()>
+where
+    DB::ErrorType: 'static,
+{
+    let arc =
+        |radius: f64| (-90..=90).map(|angle| place(center, f64::from(angle), radius)).collect::<Vec<_>>();
+    let values = ticks(edge, 4.0);
+    for &value in &values {
+        let radius = RADIUS * value / edge;
+        canvas.line(&arc(radius), GRID, 1.0)?;
+        canvas.text(&signed(value), (center.0 - radius, center.1 + LABEL), Lettering::center(13.0, MUTED))?;
+        canvas.text(&signed(value), (center.0 + radius, center.1 + LABEL), Lettering::center(13.0, MUTED))?;
+    }
+    for angle in [-60.0, -30.0, 0.0, 30.0, 60.0] {
+        canvas.line(&[center, place(center, angle, RADIUS)], GRID, 1.0)?;
+        // The arrow stands there.
+        if f64::abs(angle - light_deg) < ARROW_WIDTH {
+            continue;
+        }
+        let style = Lettering::center(13.0, MUTED);
+        canvas.text(&format!("{}°", signed(angle)), place(center, angle, RADIUS + LABEL), style)?;
+    }
+    canvas.line(&arc(RADIUS), GRID, 1.5)?;
+    canvas.line(&[place(center, -90.0, RADIUS), place(center, 90.0, RADIUS)], INK, 1.5)
+}
+
+/// An arrow along the light's way, from outside to the centre.
+fn draw_light<DB: DrawingBackend>(
+    canvas: &Canvas<'_, DB>,
+    center: Point,
+    theta_deg: f64,
+) -> anyhow::Result<()>
+where
+    DB::ErrorType: 'static,
+{
+    let far = place(center, theta_deg, RADIUS + 34.0);
+    let near = place(center, theta_deg, RADIUS + 4.0);
+    canvas.line(&[far, place(center, theta_deg, RADIUS + 12.0)], INK, 2.0)?;
+    let side = |offset: f64| {
+        let (sin, cos) = theta_deg.to_radians().sin_cos();
+        let (x, y) = place(center, theta_deg, RADIUS + 14.0);
+        (x + offset * cos, y + offset * sin)
+    };
+    canvas.fill(&[near, side(5.0), side(-5.0)], INK)
+}

@@ -1,0 +1,42 @@
+//! Every verb explains itself, and its examples run and print what they show.
+
+use crate::run::{Bench, output};
+
+const VERBS: [&str; 6] = ["eval", "sample", "albedo", "plot", "plot lobe", "plot albedo"];
+
+#[test]
+fn every_verb_has_help_with_an_example() {
+    for verb in VERBS {
+        for flag in ["--help", "-h"] {
+            let text = output(&format!("{verb} {flag}"), "");
+            assert!(text.contains("Usage: catseye") && text.contains("Example:\n  $ "), "{verb} {flag}: {text}");
+        }
+    }
+    assert!(output("--help", "").contains("Exit codes: 0 done, 1 failed, 2 used wrongly"));
+}
+
+#[test]
+fn every_example_prints_what_it_shows() {
+    for verb in VERBS {
+        let text = output(&format!("{verb} --help"), "");
+        let (_, example) = text.split_once("Example:\n").unwrap();
+        let mut lines = example.lines().map(str::trim);
+        let command = lines.next().unwrap().strip_prefix("$ ").unwrap();
+        let outcome = Bench::new().shell(command);
+        assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""), "{command}");
+        let expected: Vec<&str> = lines.filter(|line| !line.is_empty()).collect();
+        let printed: Vec<&str> = outcome.stdout.lines().map(str::trim).collect();
+        assert!(alike(&expected.join("\n"), &printed.join("\n")), "{command}\n{}", outcome.stdout);
+    }
+}
+
+/// Equal texts; numbers up to the rounding that another machine's mathematical functions may do.
+fn alike(a: &str, b: &str) -> bool {
+    let words = |text: &str| text.split([',', '\n', ' ']).map(str::to_owned).collect::<Vec<_>>();
+    let same = |(a, b): (&String, &String)| match (a.parse::<f64>(), b.parse::<f64>()) {
+        (Ok(a), Ok(b)) => (a - b).abs() <= 1e-12 * a.abs(),
+        _ => a == b,
+    };
+    let (a, b) = (words(a), words(b));
+    a.len() == b.len() && a.iter().zip(&b).all(same)
+}
