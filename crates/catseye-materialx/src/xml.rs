@@ -15,7 +15,7 @@ const MAX_XML_NODES: u32 = 500_000;
 /// Elements inside elements; MaterialX itself needs four.
 const MAX_NESTING: usize = 32;
 /// Quotes in one tag, two for each attribute: roxmltree compares every attribute of an element with every other.
-const MAX_QUOTES: usize = 512;
+const MAX_QUOTES: usize = 256;
 /// Namespace declarations: roxmltree copies those of the parent into every child that declares another.
 const MAX_NAMESPACES: usize = 64;
 
