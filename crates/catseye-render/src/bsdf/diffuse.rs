@@ -1,0 +1,134 @@
+//! Rough diffuse reflection: `oren_nayar_diffuse_bsdf`.
+
+use std::f32::consts::{FRAC_1_PI, PI};
+
+use glam::Vec3;
+
+use super::albedo_table::{AlbedoTable, mean_over_square};
+
+/// Oren and Nayar's model of diffuse facets, in one of MaterialX's two forms.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct OrenNayar {
+    color: Vec3,
+    form: Form,
+    /// The directional albedo for a white colour.
+    albedo: AlbedoTable,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Form {
+    /// The qualitative model, Oren and Nayar, "Generalization of Lambert's Reflectance Model", SIGGRAPH 1994, Eq. 27.
+    Qualitative { a: f32, b: f32 },
+    /// EON: Portsmouth, Kutz and Hill, "EON: A Practical Energy-Preserving Rough Diffuse BRDF", JCGT 14(1), 2025.
+    EnergyPreserving { a: f32, roughness: f32 },
+}
+
+impl OrenNayar {
+    /// `roughness` is the slope's standard deviation, or in the energy-preserving form EON's roughness in `[0, 1]`.
+    pub(crate) fn new(color: Vec3, roughness: f32, energy_compensation: bool) -> Self {
+        let form = if energy_compensation {
+            let roughness = roughness.clamp(0.0, 1.0);
+            Form::EnergyPreserving { a: 1.0 / (1.0 + (0.5 - 2.0 / (3.0 * PI)) * roughness), roughness }
+        } else {
+            let sigma2 = roughness * roughness;
+            Form::Qualitative { a: 1.0 - 0.5 * sigma2 / (sigma2 + 0.33), b: 0.45 * sigma2 / (sigma2 + 0.09) }
+        };
+        let albedo = AlbedoTable::new(true, |wo| {
+            mean_over_square(|u| PI * form.eval(Vec3::ONE, wo, cosine_hemisphere(u)).x)
+        });
+        Self { color: color.clamp(Vec3::ZERO, Vec3::ONE), form, albedo }
+    }
+
+    #[inline]
+    pub(crate) fn eval(&self, wo: Vec3, wi: Vec3) -> Vec3 {
+        if wo.z > 0.0 && wi.z > 0.0 { self.form.eval(self.color, wo, wi) } else { Vec3::ZERO }
+    }
+
+    #[inline]
+    pub(crate) fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
+        if wo.z > 0.0 { wi.z.max(0.0) * FRAC_1_PI } else { 0.0 }
+    }
+
+    #[inline]
+    pub(crate) fn sample(&self, u: [f32; 2]) -> Vec3 {
+        cosine_hemisphere(u)
+    }
+
+    #[inline]
+    pub(crate) fn albedo(&self, wo: Vec3) -> Vec3 {
+        self.color * self.albedo.look_up(wo)
+    }
+}
+
+impl Form {
+    fn eval(self, color: Vec3, wo: Vec3, wi: Vec3) -> Vec3 {
+        let s = wo.dot(wi) - wo.z * wi.z;
+        match self {
+            Self::Qualitative { a, b } => {
+                let s_over_t = if s > 0.0 { s / wo.z.max(wi.z) } else { 0.0 };
+                color * (FRAC_1_PI * (a + b * s_over_t))
+            }
+            Self::EnergyPreserving { a, roughness } => {
+                let s_over_t = if s > 0.0 { s / wo.z.max(wi.z) } else { s };
+                let single = color * (FRAC_1_PI * a * (1.0 + roughness * s_over_t));
+                single + multiple(color, a, roughness, wo.z, wi.z)
+            }
+        }
+    }
+}
+
+/// EON, Eq. 17: light that left a facet towards another.
+fn multiple(color: Vec3, a: f32, roughness: f32, cos_o: f32, cos_i: f32) -> Vec3 {
+    /// The hemispherical mean of `facet_albedo` is `a (1 + MEAN roughness)`.
+    const MEAN: f32 = 2.0 / 3.0 - 28.0 / (15.0 * PI);
+    let mean = a * (1.0 + MEAN * roughness);
+    let lost_mean = (1.0 - mean).max(1e-7);
+    let lost = (1.0 - facet_albedo(a, roughness, cos_o)) * (1.0 - facet_albedo(a, roughness, cos_i));
+    let tint = color * color * mean / (Vec3::ONE - color * lost_mean);
+    tint * (FRAC_1_PI * lost.max(0.0) / lost_mean)
+}
+
+/// The directional albedo of single scattering by white facets (Fujii's improved Oren-Nayar model).
+fn facet_albedo(a: f32, roughness: f32, cos_theta: f32) -> f32 {
+    let cos = cos_theta.max(1e-4);
+    let sin = (1.0 - cos * cos).max(0.0).sqrt();
+    let theta = cos.min(1.0).acos();
+    let g = sin * (theta - sin * cos) + (2.0 / 3.0) * ((sin / cos) * (1.0 - sin * sin * sin) - sin);
+    a * (1.0 + roughness * FRAC_1_PI * g)
+}
+
+/// A direction distributed as the cosine of its polar angle (Malley's method).
+pub(crate) fn cosine_hemisphere(u: [f32; 2]) -> Vec3 {
+    let (sin_phi, cos_phi) = (2.0 * PI * u[0]).sin_cos();
+    let radius = u[1].sqrt();
+    // Keeps the direction above the horizon where u rounds to 1.
+    Vec3::new(radius * cos_phi, radius * sin_phi, (1.0 - u[1]).max(1e-12).sqrt())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn white_energy_preserving_diffuse_loses_nothing() {
+        for roughness in [0.0, 0.3, 1.0] {
+            let lobe = OrenNayar::new(Vec3::ONE, roughness, true);
+            for cos_theta in [0.05_f32, 0.3, 0.7, 1.0] {
+                let wo = Vec3::new((1.0 - cos_theta * cos_theta).sqrt(), 0.0, cos_theta);
+                let albedo = lobe.albedo(wo).x;
+                assert!((albedo - 1.0).abs() < 5e-3, "roughness {roughness}, cos {cos_theta}: {albedo}");
+            }
+        }
+    }
+
+    #[test]
+    fn qualitative_diffuse_never_gains() {
+        for roughness in [0.0, 0.3, 1.0, 10.0] {
+            let lobe = OrenNayar::new(Vec3::ONE, roughness, false);
+            for cos_theta in [0.01_f32, 0.3, 1.0] {
+                let wo = Vec3::new((1.0 - cos_theta * cos_theta).sqrt(), 0.0, cos_theta);
+                assert!(lobe.albedo(wo).x < 1.0 + 1e-3);
+            }
+        }
+    }
+}

@@ -1,0 +1,13 @@
+//! What surfaces do to light: a MaterialX closure tree made ready for sampling.
+
+mod albedo_table;
+mod dielectric;
+mod diffuse;
+mod fresnel;
+mod ggx;
+mod lobe;
+mod shading;
+mod tree;
+
+pub use shading::{BsdfSample, Shading};
+pub use tree::Bsdf;

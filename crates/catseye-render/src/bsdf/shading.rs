@@ -1,0 +1,147 @@
+//! A BSDF at a point, seen from a direction.
+
+use glam::Vec3;
+
+use super::lobe::{LobeKind, LobeSample, Outgoing};
+use super::tree::{Bsdf, MAX_LOBES};
+use crate::Frame;
+
+/// The BSDF of a surface point for one outgoing direction: lobes' shares and selection probabilities are settled.
+///
+/// Directions are in world space. The surface is two-sided: the frame's normal must point to the side of `wo`.
+#[derive(Clone, Debug)]
+pub struct Shading<'a> {
+    bsdf: &'a Bsdf,
+    frame: Frame,
+    out: [Outgoing; MAX_LOBES],
+    shares: [Vec3; MAX_LOBES],
+    /// Probabilities with which lobes are sampled; they add up to 1 or 0.
+    selection: [f32; MAX_LOBES],
+}
+
+/// A sampled direction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BsdfSample {
+    /// The direction, unit length, world space.
+    pub wi: Vec3,
+    /// f |cos| / pdf.
+    pub weight: Vec3,
+    /// Density per steradian; `None` for a Dirac lobe, which light sampling can't meet.
+    pub pdf: Option<f32>,
+}
+
+impl Bsdf {
+    /// The BSDF at a point with the given shading frame, seen from `wo_world` on the side of the frame's normal.
+    ///
+    /// `inside` says whether that side is the inside of the surface, which matters to dielectrics only.
+    #[must_use]
+    pub fn at(&self, frame: Frame, wo_world: Vec3, inside: bool) -> Shading<'_> {
+        let common = Outgoing { wo: frame.to_local(wo_world), inside };
+        let mut out = [common; MAX_LOBES];
+        for (out, lobe) in out.iter_mut().zip(&self.lobes) {
+            if let LobeKind::Retro { tangent_world: Some(tangent), .. } = &lobe.kind {
+                out.wo = Frame::from_normal_tangent(frame.z, *tangent).to_local(wo_world);
+            }
+        }
+        let shares = self.shares(&out);
+        let selection = self.selection(&out, &shares);
+        Shading { bsdf: self, frame, out, shares, selection }
+    }
+
+    /// Each lobe's part of the albedo.
+    fn selection(&self, out: &[Outgoing; MAX_LOBES], shares: &[Vec3; MAX_LOBES]) -> [f32; MAX_LOBES] {
+        let mut selection = [0.0; MAX_LOBES];
+        if let [_] = &self.lobes[..] {
+            selection[0] = 1.0;
+            return selection;
+        }
+        for (i, lobe) in self.lobes.iter().enumerate() {
+            if shares[i] != Vec3::ZERO {
+                selection[i] = (shares[i] * lobe.albedo(out[i])).element_sum();
+            }
+        }
+        let total: f32 = selection.iter().sum();
+        if total > 0.0 { selection.map(|s| s / total) } else { selection }
+    }
+}
+
+impl Shading<'_> {
+    /// The direction in the frame of a lobe.
+    fn local(&self, lobe: usize, wi_world: Vec3, wi_common: Vec3) -> Vec3 {
+        match &self.bsdf.lobes[lobe].kind {
+            LobeKind::Retro { tangent_world: Some(tangent), .. } => {
+                Frame::from_normal_tangent(self.frame.z, *tangent).to_local(wi_world)
+            }
+            _ => wi_common,
+        }
+    }
+
+    fn world(&self, lobe: usize, wi_local: Vec3) -> Vec3 {
+        match &self.bsdf.lobes[lobe].kind {
+            LobeKind::Retro { tangent_world: Some(tangent), .. } => {
+                Frame::from_normal_tangent(self.frame.z, *tangent).to_world(wi_local)
+            }
+            _ => self.frame.to_world(wi_local),
+        }
+    }
+
+    /// f |cos| per channel, and the density per steradian with which [`Shading::sample`] chooses `wi_world`. Dirac
+    /// lobes don't take part.
+    #[must_use]
+    pub fn eval_pdf(&self, wi_world: Vec3) -> (Vec3, f32) {
+        let wi_common = self.frame.to_local(wi_world);
+        let (mut f, mut pdf) = (Vec3::ZERO, 0.0);
+        for (i, lobe) in self.bsdf.lobes.iter().enumerate() {
+            if self.shares[i] == Vec3::ZERO {
+                continue;
+            }
+            let (f_lobe, pdf_lobe) = lobe.eval_pdf(self.out[i], self.local(i, wi_world, wi_common));
+            f += self.shares[i] * f_lobe;
+            pdf += self.selection[i] * pdf_lobe;
+        }
+        (f * wi_common.z.abs(), pdf)
+    }
+
+    /// A direction for four uniform numbers; `None` where the light is absorbed.
+    #[must_use]
+    pub fn sample(&self, u: [f32; 4]) -> Option<BsdfSample> {
+        let lobe = self.select(u[0])?;
+        let LobeSample { wi, weight, pdf } =
+            self.bsdf.lobes[lobe].sample(self.out[lobe], [u[1], u[2], u[3]])?;
+        let wi_world = self.world(lobe, wi).try_normalize()?;
+        let probability = self.selection[lobe];
+        if pdf.is_none() || self.bsdf.lobes.len() == 1 {
+            let weight = weight * self.shares[lobe] / probability;
+            return Some(BsdfSample { wi: wi_world, weight, pdf });
+        }
+        let (f_cos, pdf) = self.eval_pdf(wi_world);
+        (pdf > 0.0).then(|| BsdfSample { wi: wi_world, weight: f_cos / pdf, pdf: Some(pdf) })
+    }
+
+    fn select(&self, u: f32) -> Option<usize> {
+        let mut rest = u;
+        let mut last = None;
+        for (i, &probability) in self.selection.iter().enumerate().take(self.bsdf.lobes.len()) {
+            if probability > 0.0 {
+                last = Some(i);
+                if rest < probability {
+                    return last;
+                }
+                rest -= probability;
+            }
+        }
+        last
+    }
+
+    /// Whether all lobes are Dirac distributions: then there is nothing for light sampling to do.
+    #[must_use]
+    pub fn is_dirac(&self) -> bool {
+        self.bsdf.lobes.iter().all(super::lobe::Lobe::is_dirac)
+    }
+
+    /// Share of the energy from `wo` that is scattered, per channel.
+    #[must_use]
+    pub fn albedo(&self) -> Vec3 {
+        self.bsdf.lobes.iter().enumerate().map(|(i, l)| self.shares[i] * l.albedo(self.out[i])).sum()
+    }
+}

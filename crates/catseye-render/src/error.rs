@@ -1,0 +1,55 @@
+//! What can go wrong, in one enum.
+
+use std::io;
+use std::path::PathBuf;
+
+/// Why a scene could not be built, rendered or written.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A file could not be written; nothing was left in its place.
+    #[error("cannot write {}: {source}", path.display())]
+    Write {
+        /// The file asked for.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// A setting is outside its range.
+    #[error("{name} is {value}, outside {range}")]
+    Setting {
+        /// The field of [`RenderSettings`](crate::RenderSettings).
+        name: &'static str,
+        /// Its value.
+        value: u64,
+        /// Its legal values.
+        range: &'static str,
+    },
+    /// A retro-reflective lobe has a parameter outside its range.
+    #[error("retro_reflective_bsdf: {0}")]
+    Parameter(#[from] catseye::ParamError),
+    /// A material has more lobes than a shading point has room for.
+    #[error("the material has {found} lobes, {max} are supported: mix fewer closures")]
+    TooManyLobes {
+        /// How many there are.
+        found: usize,
+        /// How many there may be.
+        max: usize,
+    },
+    /// A mesh is inconsistent.
+    #[error("mesh {mesh}: {problem}")]
+    Mesh {
+        /// The number of the mesh in the order of addition, from 0.
+        mesh: usize,
+        /// What does not fit.
+        problem: String,
+    },
+    /// The worker threads could not be started.
+    #[error("cannot start {threads} threads: {reason}")]
+    Threads {
+        /// How many were asked for.
+        threads: usize,
+        /// What the system said.
+        reason: String,
+    },
+}

@@ -1,0 +1,187 @@
+//! Everything that a picture is taken of.
+
+use catseye_materialx::Material;
+
+use crate::accel::{Accel, Primitive};
+use crate::surface::{Attributes, Hit};
+use crate::{Bsdf, Camera, Error, Light, Mesh, Ray, Sphere, ToneMap};
+
+/// A scene, ready to be rendered. Made by a [`SceneBuilder`].
+#[derive(Debug)]
+pub struct Scene {
+    camera: Camera,
+    tone_map: ToneMap,
+    accel: Accel,
+    attributes: Vec<Attributes>,
+    surfaces: Vec<Surface>,
+    lights: Vec<Box<dyn Light>>,
+    opaque: bool,
+}
+
+/// A material as the scene needs it.
+#[derive(Debug)]
+struct Surface {
+    bsdf: Bsdf,
+    opacity: f32,
+}
+
+/// A material of a scene under construction.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct MaterialId(u32);
+
+/// Collects what is in a scene.
+#[derive(Debug)]
+pub struct SceneBuilder {
+    camera: Camera,
+    tone_map: ToneMap,
+    surfaces: Vec<Surface>,
+    meshes: Vec<(Mesh, MaterialId)>,
+    spheres: Vec<(Sphere, MaterialId)>,
+    lights: Vec<Box<dyn Light>>,
+}
+
+impl SceneBuilder {
+    /// An empty scene, seen by a camera.
+    #[must_use]
+    pub fn new(camera: Camera) -> Self {
+        Self {
+            camera,
+            tone_map: ToneMap::default(),
+            surfaces: Vec::new(),
+            meshes: Vec::new(),
+            spheres: Vec::new(),
+            lights: Vec::new(),
+        }
+    }
+
+    /// Adds an opaque material.
+    pub fn material(&mut self, bsdf: Bsdf) -> MaterialId {
+        self.translucent_material(bsdf, 1.0)
+    }
+
+    /// Adds a material that lets the share `1 - opacity` of light pass straight through.
+    pub fn translucent_material(&mut self, bsdf: Bsdf, opacity: f32) -> MaterialId {
+        self.surfaces.push(Surface { bsdf, opacity: opacity.clamp(0.0, 1.0) });
+        MaterialId(self.surfaces.len() as u32 - 1)
+    }
+
+    /// Adds a material of a MaterialX document; its retro-reflective lobes are of the given model.
+    ///
+    /// # Errors
+    /// As [`Bsdf::with_model`].
+    pub fn materialx(&mut self, material: &Material, model: catseye::Model) -> Result<MaterialId, Error> {
+        Ok(self.translucent_material(Bsdf::with_model(&material.bsdf, model)?, material.opacity))
+    }
+
+    /// Adds a mesh.
+    pub fn mesh(&mut self, mesh: Mesh, material: MaterialId) -> &mut Self {
+        self.meshes.push((mesh, material));
+        self
+    }
+
+    /// Adds a sphere. Its tangent runs along the circles of latitude around the y axis.
+    pub fn sphere(&mut self, sphere: Sphere, material: MaterialId) -> &mut Self {
+        self.spheres.push((sphere, material));
+        self
+    }
+
+    /// Adds a light. It is not part of the geometry: it casts no shadow.
+    pub fn light(&mut self, light: impl Light + 'static) -> &mut Self {
+        self.lights.push(Box::new(light));
+        self
+    }
+
+    /// Sets the tone map that suits the scene.
+    pub fn tone_map(&mut self, tone_map: ToneMap) -> &mut Self {
+        self.tone_map = tone_map;
+        self
+    }
+
+    /// Checks the meshes and builds the acceleration structure.
+    ///
+    /// # Errors
+    /// A mesh that is inconsistent.
+    pub fn build(self) -> Result<Scene, Error> {
+        let mut primitives = Vec::new();
+        let mut attributes = Vec::new();
+        for (number, (mesh, material)) in self.meshes.iter().enumerate() {
+            if let Some(problem) = mesh.problem() {
+                return Err(Error::Mesh { mesh: number, problem });
+            }
+            for &triangle in &mesh.triangles {
+                let corners = triangle.map(|i| mesh.positions[i as usize]);
+                // A triangle without area has no normal, and no ray meets it but by rounding.
+                if (corners[1] - corners[0]).cross(corners[2] - corners[0]).try_normalize().is_some() {
+                    primitives.push(Primitive::Triangle(corners));
+                    attributes.push(Attributes::of_triangle(mesh, triangle, material.0));
+                }
+            }
+        }
+        for (sphere, material) in &self.spheres {
+            primitives.push(Primitive::Sphere(*sphere));
+            attributes.push(Attributes::of_sphere(material.0));
+        }
+        let (accel, order) = Accel::new(&primitives);
+        Ok(Scene {
+            camera: self.camera,
+            tone_map: self.tone_map,
+            accel,
+            attributes: order.iter().map(|&i| attributes[i as usize]).collect(),
+            opaque: self.surfaces.iter().all(|s| s.opacity >= 1.0),
+            surfaces: self.surfaces,
+            lights: self.lights,
+        })
+    }
+}
+
+impl Scene {
+    /// The camera.
+    #[must_use]
+    pub fn camera(&self) -> &Camera {
+        &self.camera
+    }
+
+    /// The tone map that suits the scene's light.
+    #[must_use]
+    pub fn tone_map(&self) -> &ToneMap {
+        &self.tone_map
+    }
+
+    /// The lights.
+    pub(crate) fn lights(&self) -> &[Box<dyn Light>] {
+        &self.lights
+    }
+
+    /// The surface point that the ray meets first.
+    pub(crate) fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        let (index, t) = self.accel.nearest(ray)?;
+        Some(Hit::new(ray, t, self.accel.primitive(index), &self.attributes[index]))
+    }
+
+    /// The BSDF of a surface point.
+    pub(crate) fn bsdf(&self, hit: &Hit) -> &Bsdf {
+        &self.surfaces[hit.material as usize].bsdf
+    }
+
+    /// The opacity of a surface point.
+    pub(crate) fn opacity(&self, hit: &Hit) -> f32 {
+        self.surfaces[hit.material as usize].opacity
+    }
+
+    /// The share of light that passes along the whole ray.
+    pub(crate) fn transmittance(&self, ray: &Ray) -> f32 {
+        if self.opaque {
+            return if self.accel.is_blocked(ray) { 0.0 } else { 1.0 };
+        }
+        let (mut ray, mut passed) = (*ray, 1.0);
+        while let Some(hit) = self.intersect(&ray) {
+            passed *= 1.0 - self.opacity(&hit);
+            if passed <= 0.0 {
+                return 0.0;
+            }
+            let t_max = ray.t_max - hit.t;
+            ray = Ray { t_max, ..Ray::leaving(hit.position, hit.normal, ray.direction) };
+        }
+        passed
+    }
+}

@@ -1,0 +1,60 @@
+//! The materials of the built-in scene.
+
+use catseye::{Model, Params};
+use catseye_materialx::{Closure, Material};
+use glam::Vec3;
+
+use crate::{Bsdf, Error, MaterialId, SceneBuilder};
+
+/// White.
+pub(crate) const WHITE: Vec3 = Vec3::ONE;
+/// Red of warning signs.
+pub(crate) const RED: Vec3 = Vec3::new(0.62, 0.035, 0.03);
+/// Yellow-green of cats' eyes.
+pub(crate) const CAT_GREEN: Vec3 = Vec3::new(0.55, 0.85, 0.06);
+/// Amber of road studs.
+pub(crate) const AMBER: Vec3 = Vec3::new(0.95, 0.45, 0.03);
+
+/// What signs, bands and studs are covered with, in any colour.
+#[derive(Debug)]
+pub(crate) struct Finish {
+    white: Closure,
+    opacity: f32,
+    model: Model,
+}
+
+impl Finish {
+    /// Retro-reflective sheeting: the given material, or one like beaded sheeting.
+    pub(crate) fn sheeting(material: Option<&Material>, model: Model) -> Self {
+        match material {
+            Some(material) => Self { white: material.bsdf.clone(), opacity: material.opacity, model },
+            None => Self { white: beaded_sheeting(), opacity: 1.0, model },
+        }
+    }
+
+    /// Matte white paint.
+    pub(crate) fn paint() -> Self {
+        Self { white: diffuse(0.8), opacity: 1.0, model: Model::default() }
+    }
+
+    /// Adds the finish in a colour to a scene.
+    pub(crate) fn material(&self, builder: &mut SceneBuilder, color: Vec3) -> Result<MaterialId, Error> {
+        let closure = Closure::Multiply { closure: Box::new(self.white.clone()), factor: color.into() };
+        Ok(builder.translucent_material(Bsdf::with_model(&closure, self.model)?, self.opacity))
+    }
+}
+
+/// Sheeting with a wide lobe: seen from about a degree beside the lamps it still returns some forty times the light
+/// of white paint.
+fn beaded_sheeting() -> Closure {
+    let retro = Closure::RetroReflective {
+        weight: 1.0,
+        params: Params::isotropic(0.02).with_tint([0.05; 3]),
+        tangent_u: None,
+    };
+    Closure::Layer { top: Box::new(retro), base: Box::new(diffuse(0.35)) }
+}
+
+fn diffuse(white: f32) -> Closure {
+    Closure::OrenNayarDiffuse { weight: 1.0, color: [white; 3], roughness: 0.2, energy_compensation: true }
+}
