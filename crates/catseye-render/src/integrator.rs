@@ -7,8 +7,6 @@ use crate::sampler::Sampler;
 use crate::surface::Hit;
 use crate::{Ray, Scene};
 
-/// Scatterings after which a path may end by chance.
-const ROULETTE_DEPTH: u32 = 3;
 /// Surfaces that a ray may pass straight through between two scatterings.
 const MAX_PASSED: u32 = 64;
 /// The part of the probability of choosing a light that all lights share alike: no light is forgotten where the
@@ -173,8 +171,10 @@ impl Path<'_> {
             return false;
         }
         self.throughput *= sample.weight;
-        if self.depth >= ROULETTE_DEPTH {
-            let survival = self.throughput.max_element().min(0.95);
+        // Russian roulette: a path that counts for less goes on more rarely. The root keeps rare survivors from
+        // counting too much.
+        let survival = self.throughput.max_element().min(1.0).sqrt();
+        if survival < 1.0 {
             if sampler.next_4d()[0] >= survival {
                 return false;
             }

@@ -1,4 +1,36 @@
 //! A CPU path tracer that shows the catseye BSDF.
+//!
+//! It renders [`Scene`]s of triangle meshes and spheres, whose materials are [`Bsdf`]s made from MaterialX closures, in
+//! the light of lamps, panels and environments. Paths are traced from the camera with light sampling, multiple
+//! importance sampling and Owen-scrambled Sobol points; a picture is the same to the last bit for any number of threads.
+//!
+//! ```
+//! use catseye::{Model, Params};
+//! use catseye_materialx::{Closure, Material};
+//! use catseye_render::{RenderSettings, Scene, render, write_png};
+//!
+//! let sheeting = Closure::RetroReflective {
+//!     weight: 1.0,
+//!     params: Params::isotropic(0.05).with_tint([0.8, 0.7, 0.2]),
+//!     tangent_u: None,
+//! };
+//! let material = Material { name: "yellow_sheeting".to_owned(), bsdf: sheeting, opacity: 1.0 };
+//! let scene = Scene::preview(&material, Model::Reciprocal)?;
+//! let settings = RenderSettings { width: 32, height: 18, spp: 1, ..RenderSettings::default() };
+//! let image = render(&scene, &settings, &|_done| ())?;
+//! # let folder = tempfile::tempdir().unwrap();
+//! # let path = folder.path().join("preview.png");
+//! write_png(&image, scene.tone_map(), &path)?;
+//! # Ok::<(), catseye_render::Error>(())
+//! ```
+//!
+//! # Conventions
+//! - Scenes are right-handed with y up; lengths are metres in the scenes that come with the crate. Colours are linear
+//!   Rec. 709. Light is in any radiometric or photometric system: radiance, irradiance and intensity agree.
+//! - Surfaces are two-sided: whichever side a ray meets is the upper side of its BSDF. Only dielectrics that transmit
+//!   know inside from outside.
+//! - A tangent points along increasing u of the texture coordinates, unless the material gives one in world space.
+//! - A Dirac lobe (roughness 0) is met by scattered rays only, so it shows lights that have an extent, not points.
 
 mod accel;
 mod bsdf;
@@ -7,6 +39,7 @@ mod error;
 mod filter;
 mod frame;
 pub mod furnace;
+mod glare;
 mod image;
 mod integrator;
 pub mod light;

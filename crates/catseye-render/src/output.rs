@@ -14,7 +14,8 @@ use crate::{Error, Image, ToneMap};
 /// # Errors
 /// The file can't be written.
 pub fn write_png(image: &Image, tone_map: &ToneMap, path: &Path) -> Result<(), Error> {
-    let bytes: Vec<u8> = image.pixels().iter().flat_map(|p| tone_map.apply(*p).map(encode_srgb)).collect();
+    let glaring = image.with_glare(tone_map.glare);
+    let bytes: Vec<u8> = glaring.pixels().iter().flat_map(|p| tone_map.apply(*p).map(encode_srgb)).collect();
     write_whole(path, |file| {
         let mut encoder = png::Encoder::new(file, image.width() as u32, image.height() as u32);
         encoder.set_color(png::ColorType::Rgb);

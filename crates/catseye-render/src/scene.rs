@@ -87,7 +87,12 @@ impl SceneBuilder {
 
     /// Adds a light. It is not part of the geometry: it casts no shadow.
     pub fn light(&mut self, light: impl Light + 'static) -> &mut Self {
-        self.lights.push(Box::new(light));
+        self.boxed_light(Box::new(light))
+    }
+
+    /// As [`SceneBuilder::light`], for a light whose kind is known at run time only.
+    pub fn boxed_light(&mut self, light: Box<dyn Light>) -> &mut Self {
+        self.lights.push(light);
         self
     }
 

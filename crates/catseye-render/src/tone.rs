@@ -9,11 +9,13 @@ pub struct ToneMap {
     pub exposure_ev: f32,
     /// Exposed radiance that becomes white. Infinite clips at 1 without a curve.
     pub white: f32,
+    /// Share of the light that the lens or the eye scatters into a halo, in `[0, 1]`; see [`crate::Image::with_glare`].
+    pub glare: f32,
 }
 
 impl ToneMap {
     /// Radiance 1 is white, nothing is bent: for furnaces and comparisons.
-    pub const LINEAR: Self = Self { exposure_ev: 0.0, white: f32::INFINITY };
+    pub const LINEAR: Self = Self { exposure_ev: 0.0, white: f32::INFINITY, glare: 0.0 };
 
     /// The shown colour, linear and in `[0, 1]`.
     ///
@@ -36,7 +38,7 @@ impl ToneMap {
 impl Default for ToneMap {
     /// Radiance 1 is a middle tone, 8 is white.
     fn default() -> Self {
-        Self { exposure_ev: 0.0, white: 8.0 }
+        Self { exposure_ev: 0.0, white: 8.0, glare: 0.0 }
     }
 }
 

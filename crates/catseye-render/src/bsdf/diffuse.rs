@@ -122,12 +122,13 @@ mod tests {
     }
 
     #[test]
-    fn qualitative_diffuse_never_gains() {
-        for roughness in [0.0, 0.3, 1.0, 10.0] {
+    fn qualitative_diffuse_gains_no_more_than_known() {
+        // At grazing the albedo is A + B / 2, which exceeds 1 by up to 0.015 (at a roughness of 0.2).
+        for roughness in [0.0, 0.2, 1.0, 10.0] {
             let lobe = OrenNayar::new(Vec3::ONE, roughness, false);
             for cos_theta in [0.01_f32, 0.3, 1.0] {
                 let wo = Vec3::new((1.0 - cos_theta * cos_theta).sqrt(), 0.0, cos_theta);
-                assert!(lobe.albedo(wo).x < 1.0 + 1e-3);
+                assert!(lobe.albedo(wo).x < 1.02);
             }
         }
     }

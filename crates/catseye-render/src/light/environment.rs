@@ -4,6 +4,7 @@ use glam::Vec3;
 
 use super::{LatLong, Light, LightSample};
 use crate::Ray;
+use crate::sampler::combine;
 
 /// The light that comes from where there is nothing else.
 #[derive(Clone, Debug)]
@@ -32,6 +33,8 @@ pub struct Sky {
     pub glow: Vec3,
     /// Angle (radians) at which the glow has fallen to 1/e: along the horizon, and upwards.
     pub glow_size: [f32; 2],
+    /// Radiance of the brightest stars.
+    pub stars: Vec3,
 }
 
 impl Sky {
@@ -44,12 +47,40 @@ impl Sky {
             return self.ground;
         }
         let base = self.horizon.lerp(self.zenith, direction.y.powf(HAZE));
+        base + self.glow * self.glow_profile(direction) + self.stars * star(direction)
+    }
+
+    fn glow_profile(&self, direction: Vec3) -> f32 {
         let azimuth = |d: Vec3| d.x.atan2(-d.z);
         let turn = azimuth(direction) - azimuth(self.glow_direction);
         let along = turn.sin().atan2(turn.cos()) / self.glow_size[0];
         let up = (direction.y.asin() - self.glow_direction.y.asin()) / self.glow_size[1];
-        base + self.glow * (-(along * along) - up.abs()).exp()
+        (-(along * along) - up.abs()).exp()
     }
+}
+
+/// The strength of the star in a direction, in `[0, 1]`; nearly always 0. Few are bright, and none stands in the haze
+/// of the horizon.
+fn star(direction: Vec3) -> f32 {
+    /// Cells of the sky along the edge of a cube around it; each may hold a star.
+    const CELLS: f32 = 260.0;
+    /// The part of the cells that hold one.
+    const DENSITY: f32 = 0.014;
+    /// Radius of a star in cells.
+    const RADIUS: f32 = 0.22;
+    let axis = direction.abs().max_position();
+    let on_cube = direction * (CELLS / direction[axis].abs());
+    let cell = on_cube.floor();
+    let hash = [cell.x, cell.y, cell.z].into_iter().fold(axis as u32, |h, c| combine(h, c as i32 as u32));
+    let pick = |purpose| (combine(hash, purpose) >> 8) as f32 / (1 << 24) as f32;
+    if pick(0) >= DENSITY {
+        return 0.0;
+    }
+    let mut offset = on_cube - cell - Vec3::new(pick(1), pick(2), pick(3)).lerp(Vec3::splat(0.5), 0.5);
+    offset[axis] = 0.0;
+    let inside = offset.length_squared() < RADIUS * RADIUS;
+    let clear = (direction.y / 0.25).clamp(0.0, 1.0);
+    if inside { pick(4).powi(5) * clear } else { 0.0 }
 }
 
 impl Light for Environment {

@@ -18,27 +18,31 @@ pub struct SphereLight {
     pub beam: Option<Beam>,
 }
 
-/// An elliptical beam: a Gaussian of the horizontal and vertical angles from its axis.
+/// An elliptical beam: a Gaussian on a screen in front of the lamp, nothing behind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Beam {
     /// `z` is the axis, `x` horizontal.
     frame: Frame,
-    /// ln 2 over the squared angle of half the intensity, horizontal and vertical.
+    /// ln 2 over the squared tangent of the angle of half the intensity, horizontal and vertical.
     sharpness: [f32; 2],
 }
 
 impl Beam {
-    /// A beam along `axis` (unit length) whose intensity is half at the given angles (radians) to the side and up.
+    /// A beam along `axis` (unit length) whose intensity is half at the given angles (radians, below a right angle)
+    /// to the side and up.
     #[must_use]
     pub fn new(axis: Vec3, half_angles: [f32; 2]) -> Self {
         let frame = Frame::from_normal_tangent(axis, axis.cross(Vec3::Y));
-        Self { frame, sharpness: half_angles.map(|a| std::f32::consts::LN_2 / (a * a)) }
+        Self { frame, sharpness: half_angles.map(|a| std::f32::consts::LN_2 / a.tan().powi(2)) }
     }
 
     /// Intensity relative to the axis in a direction away from the lamp.
     fn profile(&self, direction: Vec3) -> f32 {
         let d = self.frame.to_local(direction);
-        let (side, up) = (d.x.atan2(d.z), d.y.atan2(d.z));
+        if d.z <= 0.0 {
+            return 0.0;
+        }
+        let (side, up) = (d.x / d.z, d.y / d.z);
         (-(self.sharpness[0] * side * side + self.sharpness[1] * up * up)).exp()
     }
 }

@@ -44,12 +44,12 @@ impl Finish {
     }
 }
 
-/// Sheeting with a wide lobe: seen from about a degree beside the lamps it still returns some forty times the light
+/// Sheeting with a wide lobe: seen from about a degree beside the lamps it still returns some thirty times the light
 /// of white paint.
 fn beaded_sheeting() -> Closure {
     let retro = Closure::RetroReflective {
         weight: 1.0,
-        params: Params::isotropic(0.02).with_tint([0.05; 3]),
+        params: Params::isotropic(0.02).with_tint([0.03; 3]),
         tangent_u: None,
     };
     Closure::Layer { top: Box::new(retro), base: Box::new(diffuse(0.35)) }

@@ -37,18 +37,19 @@ impl Scene {
         verge::add(&mut builder);
         for (side, finish) in [(-1.0, &retro), (1.0, &matte)] {
             sign::add(&mut builder, Vec3::new(2.55 * side, 0.0, -10.0), finish)?;
-            cone::add(&mut builder, Vec3::new(1.25 * side, 0.0, -7.6), finish)?;
+            cone::add(&mut builder, Vec3::new(1.3 * side, 0.0, -8.0), finish)?;
         }
         add_lights(&mut builder);
-        builder.tone_map(ToneMap { exposure_ev: -6.0, white: 12.0 });
+        builder.tone_map(ToneMap { exposure_ev: -7.75, white: 4.0, glare: 0.06 });
         builder.build()
     }
 
     /// A stage for one material: what `catseye render MATERIAL.mtlx` shows.
     ///
-    /// A sphere and a folded sheet of the material stand on a grey ground. A headlamp 0.2 degrees beside the camera
-    /// shows what comes back (the observation angle that data sheets of sheeting begin with), a soft light from the
-    /// side and a dim sky show the shape and everything else.
+    /// A sphere and a folded sheet of the material stand in a studio, a small matte white ball before them. A headlamp
+    /// 0.2 degrees beside the camera shows what comes back (the observation angle that tables of sheeting begin with);
+    /// it is dimmed for materials that would send back more than a picture can hold. Two soft lights from the sides
+    /// and a dim surrounding show the shape and everything else.
     ///
     /// # Errors
     /// A parameter of the material out of its range, or too many lobes in it.
@@ -60,18 +61,19 @@ impl Scene {
 fn add_lights(builder: &mut SceneBuilder) {
     for side in [-1.0, 1.0] {
         let sphere = Sphere { centre: EYE + Vec3::new(0.22 * side, -0.12, -0.05), radius: 0.05 };
-        let target = Vec3::new(0.9 * side, 0.9, -12.0);
-        let beam = Beam::new((target - sphere.centre).normalize(), [0.26, 0.11]);
+        let target = Vec3::new(0.9 * side, 0.75, -12.0);
+        let beam = Beam::new((target - sphere.centre).normalize(), [0.27, 0.14]);
         builder.light(SphereLight::headlamp(sphere, Vec3::new(1.0, 0.93, 0.80) * 9000.0, beam));
     }
-    let moon = Vec3::new(0.45, 0.75, 0.25).normalize();
-    builder.light(DistantLight::new(moon, 0.0045, Vec3::new(0.62, 0.78, 1.0) * 6.0));
+    let moon = Vec3::new(0.5, 0.6, -0.55).normalize();
+    builder.light(DistantLight::new(moon, 0.0045, Vec3::new(0.50, 0.72, 1.0) * 34.0));
     builder.light(Environment::Sky(Sky {
-        zenith: Vec3::new(0.25, 0.45, 1.1),
-        horizon: Vec3::new(1.2, 1.8, 3.2),
+        zenith: Vec3::new(0.5, 1.25, 3.6),
+        horizon: Vec3::new(3.2, 5.6, 9.5),
         ground: Vec3::new(0.1, 0.12, 0.15),
-        glow_direction: Vec3::new(-0.05, 0.0, -1.0),
-        glow: Vec3::new(7.0, 3.6, 1.5),
-        glow_size: [0.5, 0.07],
+        glow_direction: Vec3::new(-0.05, 0.0, -1.0).normalize(),
+        glow: Vec3::new(48.0, 23.0, 7.0),
+        glow_size: [0.35, 0.035],
+        stars: Vec3::new(0.9, 0.95, 1.0) * 30.0,
     }));
 }

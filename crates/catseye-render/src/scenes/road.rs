@@ -15,7 +15,7 @@ const MARKING: f32 = 0.003;
 
 /// Adds the road with retro-reflective furniture on its left and matte on its right.
 pub(crate) fn add(builder: &mut SceneBuilder, left: &Finish, right: &Finish) -> Result<(), Error> {
-    let asphalt = builder.material(Bsdf::matte(Vec3::new(0.085, 0.085, 0.09)));
+    let asphalt = builder.material(Bsdf::matte(Vec3::new(0.12, 0.12, 0.125)));
     builder.mesh(surface(), asphalt);
     let paint = builder.material(Bsdf::matte(Vec3::splat(0.6)));
     for i in 0..40 {
@@ -39,8 +39,8 @@ pub(crate) fn add(builder: &mut SceneBuilder, left: &Finish, right: &Finish) -> 
 
 /// Asphalt with the grain of its stones, finer near the camera.
 fn surface() -> Mesh {
-    const ROWS: u32 = 420;
-    const COLUMNS: u32 = 90;
+    const ROWS: u32 = 360;
+    const COLUMNS: u32 = 80;
     // Rows that grow with the distance look alike from the camera.
     let depth = |t: f32| LENGTH * (t * 5.0).exp_m1() / 5.0_f32.exp_m1();
     let mut mesh =
