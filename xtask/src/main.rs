@@ -1,2 +1,7 @@
 //! Chores.
-fn main() {}
+mod fit_albedo;
+fn main() -> anyhow::Result<()> {
+    let text = fit_albedo::generate()?;
+    std::fs::write(fit_albedo::OUTPUT, text)?;
+    Ok(())
+}

@@ -2,7 +2,13 @@
 #![cfg_attr(not(feature = "std"), no_std)]
 
 pub mod albedo;
+mod back_vector;
+#[cfg(feature = "simd")]
+pub mod batch;
+mod compensation;
 mod disk;
+mod edwards;
+mod f32_math;
 mod lobe;
 mod model;
 mod params;
@@ -10,7 +16,9 @@ mod real;
 mod reciprocal;
 mod vec3;
 
+pub use back_vector::BackVector;
 pub use disk::{DIRAC_ROUGHNESS, width};
+pub use edwards::Edwards;
 pub use lobe::{Lobe, LobeKind, Sample};
 pub use model::{AnyLobe, Model};
 pub use params::{ParamError, Params};

@@ -1,6 +1,7 @@
 //! The choice among the lobes at run time.
 
-use crate::{Lobe, ParamError, Params, Real, Reciprocal, Sample, Vec3};
+use crate::albedo::exact;
+use crate::{BackVector, Edwards, Lobe, ParamError, Params, Real, Reciprocal, Sample, Vec3};
 
 /// The lobes that can be chosen by name.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -31,24 +32,54 @@ impl Model {
 
 /// A lobe of any model.
 #[derive(Clone, Copy, Debug)]
+#[expect(clippy::large_enum_variant, reason = "lobes are few, kept in place and used without allocation")]
 pub enum AnyLobe<T> {
     /// See [`Reciprocal`].
     Reciprocal(Reciprocal<T>),
+    /// See [`Edwards`].
+    Edwards(Edwards<T>),
+    /// See [`BackVector`].
+    BackVector(BackVector<T>),
 }
 
 impl<T: Real> AnyLobe<T> {
     /// Validates and prepares the parameters for the model.
     ///
     /// # Errors
-    /// The first parameter that is out of its range.
-    pub fn new(_model: Model, params: &Params<T>) -> Result<Self, ParamError> {
-        Ok(Self::Reciprocal(Reciprocal::new(params)?))
+    /// The first parameter that is NaN or out of its range.
+    pub fn new(model: Model, params: &Params<T>) -> Result<Self, ParamError> {
+        Ok(match model {
+            Model::Reciprocal => Self::Reciprocal(Reciprocal::new(params)?),
+            Model::Edwards => Self::Edwards(Edwards::new(params)?),
+            Model::BackVector => Self::BackVector(BackVector::new(params)?),
+        })
     }
 
     fn inner(&self) -> &dyn Lobe<T> {
         match self {
             Self::Reciprocal(lobe) => lobe,
+            Self::Edwards(lobe) => lobe,
+            Self::BackVector(lobe) => lobe,
         }
+    }
+}
+
+impl Model {
+    /// The albedo along `wo` per channel by quadrature, without the fits that [`Lobe::albedo`] uses: 0 below the
+    /// horizon. The error is below 1e-9, for the back-vector model below 1e-4.
+    ///
+    /// # Errors
+    /// The first parameter that is NaN or out of its range.
+    pub fn exact_albedo(self, params: &Params<f64>, wo: Vec3<f64>) -> Result<[f64; 3], ParamError> {
+        if self != Self::Reciprocal {
+            return Ok(AnyLobe::new(self, params)?.albedo(wo));
+        }
+        params.validate()?;
+        if !(wo.z > 0.0) {
+            return Ok([0.0; 3]);
+        }
+        let rho = exact::directional(params.roughness(), wo);
+        Ok([0, 1, 2].map(|c| params.tint[c] * rho + params.multiscatter_tint[c] * (1.0 - rho)))
     }
 }
 

@@ -62,12 +62,7 @@ impl<T: Real> Params<T> {
     /// # Errors
     /// The first value that is NaN or out of range, by name.
     pub fn validate(&self) -> Result<(), ParamError> {
-        let [roughness_u, roughness_v] = self.roughness();
-        for (name, value) in [("roughness_u", roughness_u), ("roughness_v", roughness_v)] {
-            if value.is_nan() || value < T::ZERO {
-                return Err(ParamError { name, channel: None, value: value.to_f64(), range: "[0, inf]" });
-            }
-        }
+        self.validate_roughness(None, "[0, inf]")?;
         for (name, colour) in [("tint", self.tint), ("multiscatter_tint", self.multiscatter_tint)] {
             for (channel, value) in colour.into_iter().enumerate() {
                 if !(value >= T::ZERO && value <= T::ONE) {
@@ -83,16 +78,27 @@ impl<T: Real> Params<T> {
         Ok(())
     }
 
+    /// Checks both roughnesses against 0 and an upper limit, if any.
+    pub(crate) fn validate_roughness(&self, limit: Option<T>, range: &'static str) -> Result<(), ParamError> {
+        let [roughness_u, roughness_v] = self.roughness();
+        for (name, value) in [("roughness_u", roughness_u), ("roughness_v", roughness_v)] {
+            if value.is_nan() || value < T::ZERO || limit.is_some_and(|limit| value > limit) {
+                return Err(ParamError { name, channel: None, value: value.to_f64(), range });
+            }
+        }
+        Ok(())
+    }
+
     /// The nearest legal parameters: what a shading kernel does with values that it can't report.
     ///
     /// Roughness below 0 or NaN becomes 0, colours are clamped to `[0, 1]`, a NaN colour becomes 0.
     #[must_use]
     pub fn clamped(self) -> Self {
-        // `max` returns its other argument where one is NaN.
-        let colour = |c: [T; 3]| c.map(|x| x.max(T::ZERO).min(T::ONE));
+        // `greater` returns its argument where the value is NaN.
+        let colour = |c: [T; 3]| c.map(|x| x.greater(T::ZERO).lesser(T::ONE));
         Self {
-            roughness_u: self.roughness_u.max(T::ZERO),
-            roughness_v: self.roughness_v.map(|r| r.max(T::ZERO)),
+            roughness_u: self.roughness_u.greater(T::ZERO),
+            roughness_v: self.roughness_v.map(|r| r.greater(T::ZERO)),
             tint: colour(self.tint),
             multiscatter_tint: colour(self.multiscatter_tint),
         }

@@ -1,8 +1,9 @@
 //! The scalar type that the BSDF is written in: one text for `f32` and `f64`.
 
 use core::fmt::{Debug, Display};
-use core::iter::Sum;
 use core::ops::{Add, AddAssign, Div, Mul, MulAssign, Neg, Sub, SubAssign};
+
+use crate::f32_math;
 
 mod sealed {
     pub trait Sealed {}
@@ -11,6 +12,9 @@ mod sealed {
 }
 
 /// `f32` or `f64`. Sealed: the lobes' error bounds hold for these two only.
+///
+/// `f64` uses the platform's mathematical functions and is the oracle. `f32` uses the crate's own branch-free ones,
+/// which the compiler can put into vector registers and which give the same bits everywhere.
 pub trait Real:
     sealed::Sealed
     + Copy
@@ -29,99 +33,198 @@ pub trait Real:
     + AddAssign
     + SubAssign
     + MulAssign
-    + Sum
 {
     /// 0.
     const ZERO: Self;
     /// 1.
     const ONE: Self;
-    /// The largest finite value.
-    const MAX: Self;
+    /// 2.
+    const TWO: Self;
+    /// 1 / pi.
+    const FRAC_1_PI: Self;
     /// The value nearest to `x`.
     fn from_f64(x: f64) -> Self;
+    /// The value of a single-precision constant, exactly.
+    fn from_f32(x: f32) -> Self;
     /// The value as `f64`, exactly.
     fn to_f64(self) -> f64;
     /// Whether the value is neither infinite nor NaN.
     fn is_finite(self) -> bool;
     /// Whether the value is NaN.
     fn is_nan(self) -> bool;
-    /// The greater of two values; the other one where one is NaN.
-    #[must_use]
-    fn max(self, other: Self) -> Self;
-    /// The smaller of two values; the other one where one is NaN.
-    #[must_use]
-    fn min(self, other: Self) -> Self;
-    /// The absolute value.
-    #[must_use]
-    fn abs(self) -> Self;
-    /// The value with the sign of `sign`.
-    #[must_use]
-    fn copysign(self, sign: Self) -> Self;
-    /// The greatest integer not above the value.
-    #[must_use]
-    fn floor(self) -> Self;
     /// The square root.
     #[must_use]
     fn sqrt(self) -> Self;
-    /// e to the power of the value.
+    /// The absolute value.
     #[must_use]
-    fn exp(self) -> Self;
-    /// `exp(self) - 1`, accurate for small values.
+    fn abs(self) -> Self;
+    /// The fractional part of a value in `[0, 2^22)`.
     #[must_use]
-    fn exp_m1(self) -> Self;
-    /// `ln(1 + self)`, accurate for small values.
+    fn fract(self) -> Self;
+    /// e to the power of a value in `[-inf, 0]`; 0 below -80, where denormals would cost more than they are worth.
     #[must_use]
-    fn ln_1p(self) -> Self;
-    /// The natural logarithm.
+    fn exp_falling(self) -> Self;
+    /// `exp(self) - 1` for a value in `[-80, 0]`, accurate for small values.
     #[must_use]
-    fn ln(self) -> Self;
+    fn exp_m1_falling(self) -> Self;
+    /// `ln(1 - self)` for a value in `[0, 1)`, accurate for small values; `complement` is `1 - self`, from which the
+    /// result is computed where `self` is near 1.
+    #[must_use]
+    fn ln_one_minus(self, complement: Self) -> Self;
     /// Sine and cosine of an angle in radians.
     fn sin_cos(self) -> (Self, Self);
-    /// The angle of the point `(other, self)` from the x axis, in radians.
+    /// Sine and cosine of an angle in turns, in `[0, 1]`.
+    fn sin_cos_turns(self) -> (Self, Self);
+
+    /// The greater of two values; `other` where `self` is NaN.
+    #[inline(always)]
     #[must_use]
-    fn atan2(self, other: Self) -> Self;
+    fn greater(self, other: Self) -> Self {
+        if self > other { self } else { other }
+    }
+    /// The smaller of two values; `other` where `self` is NaN.
+    #[inline(always)]
+    #[must_use]
+    fn lesser(self, other: Self) -> Self {
+        if self < other { self } else { other }
+    }
 }
 
-macro_rules! real {
-    ($t:ident, $($libm:ident)*) => {
-        impl Real for $t {
-            const ZERO: Self = 0.0;
-            const ONE: Self = 1.0;
-            const MAX: Self = $t::MAX;
-            #[inline(always)]
-            fn from_f64(x: f64) -> Self { x as $t }
-            #[inline(always)]
-            fn to_f64(self) -> f64 { f64::from(self) }
-            #[inline(always)]
-            fn is_finite(self) -> bool { self.is_finite() }
-            #[inline(always)]
-            fn is_nan(self) -> bool { self.is_nan() }
-            #[inline(always)]
-            fn max(self, other: Self) -> Self { self.max(other) }
-            #[inline(always)]
-            fn min(self, other: Self) -> Self { self.min(other) }
-            #[inline(always)]
-            fn abs(self) -> Self { self.abs() }
-            #[inline(always)]
-            fn copysign(self, sign: Self) -> Self { self.copysign(sign) }
-            #[inline(always)]
-            fn floor(self) -> Self { self.floor() }
-            #[inline(always)]
-            fn sqrt(self) -> Self { self.sqrt() }
-            #[inline(always)]
-            fn exp(self) -> Self { self.exp() }
-            #[inline(always)]
-            fn exp_m1(self) -> Self { self.exp_m1() }
-            #[inline(always)]
-            fn ln_1p(self) -> Self { self.ln_1p() }
-            #[inline(always)]
-            fn ln(self) -> Self { self.ln() }
-            #[inline(always)]
-            fn sin_cos(self) -> (Self, Self) { self.sin_cos() }
-            #[inline(always)]
-            fn atan2(self, other: Self) -> Self { self.atan2(other) }
+/// The functions of the standard library, or of `libm` without it.
+macro_rules! math {
+    ($std:expr, $libm:expr) => {{
+        #[cfg(feature = "std")]
+        {
+            $std
         }
-    };
+        #[cfg(all(not(feature = "std"), feature = "libm"))]
+        {
+            $libm
+        }
+    }};
 }
-real!(f32,);
-real!(f64,);
+
+#[cfg(not(any(feature = "std", feature = "libm")))]
+compile_error!("catseye needs the feature `std` or, without it, the feature `libm`");
+
+impl Real for f64 {
+    const ZERO: Self = 0.0;
+    const ONE: Self = 1.0;
+    const TWO: Self = 2.0;
+    const FRAC_1_PI: Self = core::f64::consts::FRAC_1_PI;
+    #[inline(always)]
+    fn from_f64(x: f64) -> Self {
+        x
+    }
+    #[inline(always)]
+    fn from_f32(x: f32) -> Self {
+        Self::from(x)
+    }
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        self
+    }
+    #[inline(always)]
+    fn is_finite(self) -> bool {
+        self.is_finite()
+    }
+    #[inline(always)]
+    fn is_nan(self) -> bool {
+        self.is_nan()
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        math!(self.sqrt(), libm::sqrt(self))
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.abs()
+    }
+    #[inline(always)]
+    fn fract(self) -> Self {
+        math!(self.fract(), self - libm::trunc(self))
+    }
+    #[inline(always)]
+    fn exp_falling(self) -> Self {
+        if self < -80.0 { 0.0 } else { math!(self.exp(), libm::exp(self)) }
+    }
+    #[inline(always)]
+    fn exp_m1_falling(self) -> Self {
+        math!(self.exp_m1(), libm::expm1(self))
+    }
+    #[inline(always)]
+    fn ln_one_minus(self, complement: Self) -> Self {
+        if self < 0.25 {
+            math!((-self).ln_1p(), libm::log1p(-self))
+        } else {
+            math!(complement.ln(), libm::log(complement))
+        }
+    }
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        math!(self.sin_cos(), libm::sincos(self))
+    }
+    #[inline(always)]
+    fn sin_cos_turns(self) -> (Self, Self) {
+        Real::sin_cos(self * core::f64::consts::TAU)
+    }
+}
+
+impl Real for f32 {
+    const ZERO: Self = 0.0;
+    const ONE: Self = 1.0;
+    const TWO: Self = 2.0;
+    const FRAC_1_PI: Self = core::f32::consts::FRAC_1_PI;
+    #[inline(always)]
+    fn from_f64(x: f64) -> Self {
+        x as Self
+    }
+    #[inline(always)]
+    fn from_f32(x: f32) -> Self {
+        x
+    }
+    #[inline(always)]
+    fn to_f64(self) -> f64 {
+        f64::from(self)
+    }
+    #[inline(always)]
+    fn is_finite(self) -> bool {
+        self.is_finite()
+    }
+    #[inline(always)]
+    fn is_nan(self) -> bool {
+        self.is_nan()
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        math!(self.sqrt(), libm::sqrtf(self))
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        self.abs()
+    }
+    #[inline(always)]
+    fn fract(self) -> Self {
+        f32_math::fract(self)
+    }
+    #[inline(always)]
+    fn exp_falling(self) -> Self {
+        f32_math::exp_falling(self)
+    }
+    #[inline(always)]
+    fn exp_m1_falling(self) -> Self {
+        f32_math::exp_m1_falling(self)
+    }
+    #[inline(always)]
+    fn ln_one_minus(self, complement: Self) -> Self {
+        f32_math::ln_one_minus(self, complement)
+    }
+    #[inline(always)]
+    fn sin_cos(self) -> (Self, Self) {
+        math!(self.sin_cos(), libm::sincosf(self))
+    }
+    #[inline(always)]
+    fn sin_cos_turns(self) -> (Self, Self) {
+        f32_math::sin_cos_turns(self)
+    }
+}

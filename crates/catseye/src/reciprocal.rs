@@ -1,79 +1,158 @@
 //! The reciprocal retro-reflective lobe of the MaterialX proposal.
 
-use crate::disk::{Disk, offset};
-use crate::{Lobe, LobeKind, ParamError, Params, Real, Sample, Vec3, albedo};
+use crate::compensation::Compensation;
+use crate::disk::{Disk, HORIZON, above_horizon};
+use crate::{Lobe, LobeKind, ParamError, Params, Real, Sample, Vec3};
 
-/// The BSDF of the `retro_reflective_bsdf` node: Edwards' lobe made reciprocal, and its compensation.
+/// The BSDF of the `retro_reflective_bsdf` node: Edwards' lobe made reciprocal, plus the compensation of the energy
+/// it loses.
+///
+/// With the lump B of the halfway-vector disk and the albedo rho of single scattering (docs/theory.md, sections 2
+/// and 5):
+///
+/// ```text
+/// f     = B min(z_o, z_i) / (max(z_o, z_i)^2 (z_o + z_i))
+/// f_ms  = (1 - rho(o)) (1 - rho(i)) / (pi (1 - rho_avg))
+/// total = tint f + multiscatter_tint f_ms
+/// ```
+///
+/// Sampling draws from the disk and passes what single scattering rejects to the compensation. Where both tints are
+/// the same grey, its density is the BSDF times cosine: every sample weighs the same.
 #[derive(Clone, Copy, Debug)]
 pub struct Reciprocal<T> {
     disk: Option<Disk<T>>,
+    compensation: Compensation<T>,
     tint: [T; 3],
     multiscatter_tint: [T; 3],
+    /// Means of the tints over the channels, which lobes are chosen by.
+    single: T,
+    multiple: T,
+}
+
+/// How `sample` divides its samples: a disk sample of acceptance weight w is kept with the probability
+/// `base + slope w`, and the rest goes to the compensation.
+#[derive(Clone, Copy, Debug)]
+struct Split<T> {
+    base: T,
+    slope: T,
+    /// Probability of the compensation.
+    multiple: T,
 }
 
 impl<T: Real> Reciprocal<T> {
     /// Validates and prepares the parameters.
     ///
     /// # Errors
-    /// The first parameter that is out of its range.
+    /// The first parameter that is NaN or out of its range.
     pub fn new(params: &Params<T>) -> Result<Self, ParamError> {
         params.validate()?;
+        let disk = Disk::new(params.roughness());
+        let mean = |[r, g, b]: [T; 3]| (r + g + b) * T::from_f64(1.0 / 3.0);
         Ok(Self {
-            disk: Disk::new(params.roughness()),
+            disk,
+            compensation: Compensation::new(disk.map_or([T::ONE; 2], |disk| [disk.m_u, disk.m_v])),
             tint: params.tint,
             multiscatter_tint: params.multiscatter_tint,
+            single: mean(params.tint),
+            multiple: mean(params.multiscatter_tint),
         })
     }
 
-    fn rho(&self, w: Vec3<T>) -> T {
-        self.disk.map_or(T::ONE, |disk| T::from_f64(albedo::exact::directional(disk.m_u.to_f64(), disk.m_v.to_f64(), [w.x.to_f64(), w.y.to_f64()])))
+    /// The split for a direction that loses the share `loss`: in proportion to the energy of both lobes.
+    #[inline(always)]
+    fn split(&self, loss: T) -> Split<T> {
+        let kept = T::ONE - loss;
+        let energy = self.single * kept + self.multiple * loss;
+        // With as much tint as compensation, base = 0 and slope = 1 make f cos itself the density of what is kept.
+        // More tint keeps some of the rejected samples, less tint rejects some of the accepted ones.
+        let ratio = self.single.lesser(self.multiple) / energy.greater(T::from_f64(1e-30));
+        let (base, slope) = if self.single < self.multiple {
+            (T::ZERO, self.single / energy)
+        } else {
+            (T::ONE - ratio.lesser(T::ONE), ratio.lesser(T::ONE))
+        };
+        Split { base, slope, multiple: (T::ONE - base - slope * kept).greater(T::ZERO) }
+    }
+
+    /// BSDF and density for two directions above the horizon, given the lump B.
+    #[inline(always)]
+    fn eval_pdf_with(&self, lump: T, wo: Vec3<T>, wi: Vec3<T>) -> ([T; 3], T) {
+        let inv_sum = T::ONE / (wo.z + wi.z);
+        let (low, high) = (wo.z.lesser(wi.z), wo.z.greater(wi.z));
+        let f = lump * inv_sum * (low / (high * high));
+        let pdf_single = lump * inv_sum * (wo.z / wi.z);
+        if !(self.multiple > T::ZERO) {
+            return (self.tint.map(|t| t * f), pdf_single);
+        }
+        let loss_o = self.compensation.loss(wo);
+        let q = self.compensation.lobe(wi);
+        let split = self.split(loss_o);
+        let f_ms = loss_o * q;
+        let [t, m] = [self.tint, self.multiscatter_tint];
+        let total = [t[0] * f + m[0] * f_ms, t[1] * f + m[1] * f_ms, t[2] * f + m[2] * f_ms];
+        let pdf = split.base * pdf_single + (split.slope * f + split.multiple * q) * wi.z;
+        (total, pdf)
     }
 }
 
 impl<T: Real> Lobe<T> for Reciprocal<T> {
+    #[inline(always)]
     fn eval(&self, wo: Vec3<T>, wi: Vec3<T>) -> [T; 3] {
-        let Some(disk) = &self.disk else { return [T::ZERO; 3] };
-        if !(wo.z > T::ZERO && wi.z > T::ZERO) { return [T::ZERO; 3] }
-        let (lo, hi) = (wo.z.min(wi.z), wo.z.max(wi.z));
-        let f = disk.lump(wo, wi) * lo / (hi * hi * (wo.z + wi.z));
-        self.tint.map(|t| t * f)
+        self.eval_pdf(wo, wi).0
     }
 
+    #[inline(always)]
     fn pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
-        let Some(disk) = &self.disk else { return T::ZERO };
-        if !(wo.z > T::ZERO && wi.z > T::ZERO) { return T::ZERO }
-        disk.lump(wo, wi) * wo.z / (wi.z * (wo.z + wi.z))
+        self.eval_pdf(wo, wi).1
     }
 
-    fn sample(&self, wo: Vec3<T>, u: [T; 3]) -> Option<Sample<T>> {
-        if !(wo.z > T::ZERO) { return None }
+    #[inline(always)]
+    fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> ([T; 3], T) {
+        let Some(disk) = &self.disk else { return ([T::ZERO; 3], T::ZERO) };
+        if !above_horizon(wo, wi) {
+            return ([T::ZERO; 3], T::ZERO);
+        }
+        self.eval_pdf_with(disk.lump(wo, wi), wo, wi)
+    }
+
+    #[inline(always)]
+    fn sample(&self, wo: Vec3<T>, [u1, u2, u3]: [T; 3]) -> Option<Sample<T>> {
+        if !(wo.z > T::from_f64(HORIZON)) {
+            return None;
+        }
         let Some(disk) = &self.disk else {
             return Some(Sample { wi: wo, weight: self.tint, pdf: T::ONE, lobe: LobeKind::Dirac });
         };
-        let (sin_psi, cos_psi) = (u[0] * T::from_f64(core::f64::consts::TAU)).sin_cos();
-        let (ex, ey) = (disk.m_u * cos_psi, disk.m_v * sin_psi);
-        let m2 = ex * ex + ey * ey;
-        let d2 = -((-u[1]).ln_1p() * m2).exp_m1();
-        let scale = (d2 / m2).sqrt();
-        let (dx, dy) = (ex * scale, ey * scale);
-        let a = wo.x * dx + wo.y * dy;
-        let hh = T::ONE + a + a + d2;
-        let k = T::from_f64(2.0) * (T::ONE + a) / hh;
-        let wi = Vec3::new(k * (wo.x + dx) - wo.x, k * (wo.y + dy) - wo.y, wo.z * (T::ONE - d2) / hh);
-        let ratio = (wi.z / wo.z).min(T::ONE);
-        let w = ratio * ratio * ratio;
-        let _ = offset(wo, wi);
-        Some(Sample { wi, weight: self.tint.map(|t| t * w), pdf: self.pdf(wo, wi), lobe: LobeKind::Single })
+        let mut drawn = disk.sample(wo, u1, u2);
+        let mut lobe = LobeKind::Single;
+        if self.multiple > T::ZERO {
+            // Accept with the probability min(1, z_i/z_o)^3, the ratio of f cos to the density drawn from.
+            let ratio = (drawn.wi.z / wo.z).lesser(T::ONE);
+            let split = self.split(self.compensation.loss(wo));
+            let keep = split.base + split.slope * (ratio * ratio * ratio);
+            if u3 >= keep {
+                let fresh = ((u3 - keep) / (T::ONE - keep)).lesser(T::ONE);
+                drawn.wi = self.compensation.sample(fresh, u1);
+                drawn.lump = disk.lump(wo, drawn.wi);
+                lobe = LobeKind::Multiple;
+            }
+        }
+        if !above_horizon(wo, drawn.wi) {
+            return None;
+        }
+        let (f, pdf) = self.eval_pdf_with(drawn.lump, wo, drawn.wi);
+        let scale = drawn.wi.z / pdf;
+        Some(Sample { wi: drawn.wi, weight: f.map(|f| f * scale), pdf, lobe })
     }
 
+    #[inline]
     fn albedo(&self, wo: Vec3<T>) -> [T; 3] {
-        if !(wo.z > T::ZERO) { return [T::ZERO; 3] }
-        let rho = self.rho(wo);
-        let mut out = [T::ZERO; 3];
-        for ((out, t), m) in out.iter_mut().zip(self.tint).zip(self.multiscatter_tint) {
-            *out = t * rho + m * (T::ONE - rho);
+        if !(wo.z > T::ZERO) {
+            return [T::ZERO; 3];
         }
-        out
+        let loss = if self.disk.is_some() { self.compensation.loss(wo) } else { T::ZERO };
+        let [t, m] = [self.tint, self.multiscatter_tint];
+        [0, 1, 2].map(|c| t[c] * (T::ONE - loss) + m[c] * loss)
     }
 
     fn is_dirac(&self) -> bool {

@@ -1,40 +1,149 @@
-//! The directional albedo by quadrature in double precision: the oracle.
+//! The albedo by quadrature in double precision: the oracle that everything else is measured against.
+//!
+//! `1 - rho` rather than `rho` is computed, since narrow lobes lose little. docs/theory.md, section 4.
+
+use core::f64::consts::{FRAC_PI_2, PI};
 
 use super::gauss::Gauss;
-use crate::Real as _;
+use crate::disk::DIRAC_ROUGHNESS;
+use crate::{Real, Vec3, width};
 
-/// `1 - g(c, n)` with `m^2 = 1/(n+1)`.
-pub fn loss(c: f64, m: f64) -> f64 {
-    let rule = Gauss::<48>::new();
-    loss_with(&rule, c, m)
+/// The quadrature rules, prepared once for many evaluations.
+#[derive(Clone, Debug)]
+pub struct Quadrature {
+    along: Gauss<48>,
+    around: Gauss<32>,
 }
 
-fn loss_with(rule: &Gauss<48>, c: f64, m: f64) -> f64 {
-    let m2 = m * m;
-    // q = (1-t)^(n+1); the integrand is zero for t < c^2 where c < 0.
-    let top = if c < 0.0 { ((-c * c).ln_1p() / m2).exp() } else { 1.0 };
-    // q = v^2-type substitution resolves the square root of t at q = top.
-    rule.integrate(0.0, 1.0, |v| {
-        let q = top * (1.0 - v * v);
-        let t = -(q.ln() * m2).exp_m1();
-        let w = (1.0 - t) / (1.0 + t + 2.0 * c * t.sqrt());
-        2.0 * v * top * (1.0 - w.min(1.0).powi(3))
-    })
-}
-
-/// Directional albedo for the lobe widths `m_u`, `m_v` and the tangential part of the direction.
-pub fn directional(m_u: f64, m_v: f64, [x, y]: [f64; 2]) -> f64 {
-    let rule = Gauss::<48>::new();
-    let outer = Gauss::<32>::new();
-    let mut sum = 0.0;
-    for k in 0..8 {
-        let a = core::f64::consts::FRAC_PI_4 * f64::from(k);
-        sum += outer.integrate(a, a + core::f64::consts::FRAC_PI_4, |psi| {
-            let (s, co) = psi.sin_cos();
-            let (ex, ey) = (m_u * co, m_v * s);
-            let m = (ex * ex + ey * ey).sqrt();
-            loss_with(&rule, (ex * x + ey * y) / m, m)
-        });
+impl Default for Quadrature {
+    fn default() -> Self {
+        Self::new()
     }
-    1.0 - sum / core::f64::consts::TAU
+}
+
+impl Quadrature {
+    /// Computes the nodes.
+    #[must_use]
+    pub fn new() -> Self {
+        Self { along: Gauss::new(), around: Gauss::new() }
+    }
+
+    /// `1 - g(c, n)`: the share that single scattering loses when the disk offset d has the fixed azimuth whose
+    /// projection on the direction is `c = o_xy . d / |d|`, in `[-1, 1]`, where the lobe's width is
+    /// `m = sqrt(1/(n+1))`, in `(0, 1]`.
+    ///
+    /// Integrates over `q = (1-t)^(n+1)` with `t = |d|^2`; where c < 0 nothing is lost for `t < c^2`.
+    #[must_use]
+    pub fn loss_along(&self, c: f64, m: f64) -> f64 {
+        let m2 = m * m;
+        let c2 = (c * c).lesser(1.0);
+        let top_ln = if c < 0.0 { c2.ln_one_minus(1.0 - c2) / m2 } else { 0.0 };
+        if top_ln < -80.0 {
+            return 0.0;
+        }
+        let top = top_ln.exp_falling();
+        // q = top (1-v^2)^3 resolves the square root of t at one end and the power of q at the other.
+        self.along.integrate(0.0, 1.0, |v| {
+            let v2 = v * v;
+            let rest = 1.0 - v2;
+            let t = -((top_ln + 3.0 * v2.ln_one_minus(rest)) * m2).exp_m1_falling();
+            let ratio = (1.0 - t) / (1.0 + t + 2.0 * c * Real::sqrt(t));
+            let kept = ratio.lesser(1.0);
+            6.0 * top * v * rest * rest * (1.0 - kept * kept * kept)
+        })
+    }
+
+    /// `1 - rho(o)` for the widths `[m_u, m_v]` of the lobe and the tangential part `[o_x, o_y]` of the direction.
+    ///
+    /// With `e = (m_u cos psi, m_v sin psi)`, rho is the mean over psi of `g(o_xy . e / |e|, 1/|e|^2 - 1)`. The
+    /// integrand has kinks where `o_xy . e = 0` and, for a narrow ellipse, near its ends: the range is split at both.
+    #[must_use]
+    pub fn loss(&self, [m_u, m_v]: [f64; 2], [x, y]: [f64; 2]) -> f64 {
+        let (along_u, along_v) = (m_u * x, m_v * y);
+        // psi in [0, pi] where the direction (cos psi, sin psi) is perpendicular to (along_u, along_v).
+        let crossing = atan2(along_u.abs(), along_v.abs());
+        let crossing = if along_u * along_v > 0.0 { PI - crossing } else { crossing };
+        let breaks = [0.0, crossing.lesser(FRAC_PI_2), crossing.greater(FRAC_PI_2), PI];
+        let mut sum = 0.0;
+        for pair in breaks.windows(2) {
+            let (start, range) = (pair[0], pair[1] - pair[0]);
+            if range <= 0.0 {
+                continue;
+            }
+            sum += self.around.integrate(0.0, 1.0, |v| {
+                // Nodes crowd at both ends.
+                let psi = start + range * v * v * (3.0 - 2.0 * v);
+                let (sin, cos) = Real::sin_cos(psi);
+                let (ex, ey) = (m_u * cos, m_v * sin);
+                let m = Real::sqrt(ex * ex + ey * ey);
+                let c = (ex * x + ey * y) / m;
+                3.0 * range * v * (1.0 - v) * (self.loss_along(c, m) + self.loss_along(-c, m))
+            });
+        }
+        sum / PI
+    }
+
+    /// `1 - G(n)`: the cosine-weighted hemispherical mean of `1 - g` for the width m.
+    #[must_use]
+    fn average_loss_along(&self, m: f64) -> f64 {
+        // The tangential part of a cosine-distributed direction is uniform on the disk: c = sin b has density
+        // 2/pi cos^2 b. Split at 0, where `loss_along` has its kink, and crowd the nodes there.
+        self.around.integrate(0.0, 1.0, |v| {
+            let (sin, cos) = Real::sin_cos(FRAC_PI_2 * v * v);
+            2.0 * v * cos * cos * (self.loss_along(sin, m) + self.loss_along(-sin, m))
+        })
+    }
+
+    /// `1 - rho_avg` for the widths of the lobe.
+    #[must_use]
+    pub fn average_loss(&self, [m_u, m_v]: [f64; 2]) -> f64 {
+        self.around.integrate(0.0, 1.0, |v| {
+            let (sin, cos) = Real::sin_cos(FRAC_PI_2 * v * v * (3.0 - 2.0 * v));
+            let m = Real::sqrt(m_u * m_u * cos * cos + m_v * m_v * sin * sin);
+            6.0 * v * (1.0 - v) * self.average_loss_along(m)
+        })
+    }
+}
+
+fn atan2(y: f64, x: f64) -> f64 {
+    #[cfg(feature = "std")]
+    return y.atan2(x);
+    #[cfg(not(feature = "std"))]
+    return libm::atan2(y, x);
+}
+
+/// The lobe's widths, or `None` where it is a Dirac distribution.
+fn widths([roughness_u, roughness_v]: [f64; 2]) -> Option<[f64; 2]> {
+    let dirac = roughness_u < DIRAC_ROUGHNESS && roughness_v < DIRAC_ROUGHNESS;
+    (!dirac).then(|| [roughness_u, roughness_v].map(|r| width(r.greater(DIRAC_ROUGHNESS))))
+}
+
+/// Directional albedo rho(o) of single scattering for the roughness pair, each in `[0, inf]`; error below 1e-9.
+///
+/// 0 below the horizon, 1 where both roughnesses make a Dirac lobe.
+#[must_use]
+pub fn directional(roughness: [f64; 2], wo: Vec3<f64>) -> f64 {
+    if !(wo.z > 0.0) {
+        return 0.0;
+    }
+    widths(roughness).map_or(1.0, |m| 1.0 - Quadrature::new().loss(m, [wo.x, wo.y]))
+}
+
+/// Cosine-weighted hemispherical mean `rho_avg` of the directional albedo; error below 1e-9.
+#[must_use]
+pub fn average(roughness: [f64; 2]) -> f64 {
+    widths(roughness).map_or(1.0, |m| 1.0 - Quadrature::new().average_loss(m))
+}
+
+/// The compensation `f_ms(o,i) = (1-rho(o)) (1-rho(i)) / (pi (1-rho_avg))` in 1/sr, for a multiscatter tint of 1.
+///
+/// 0 below the horizon and for a Dirac lobe.
+#[must_use]
+pub fn compensation(roughness: [f64; 2], wo: Vec3<f64>, wi: Vec3<f64>) -> f64 {
+    let Some(m) = widths(roughness) else { return 0.0 };
+    if !(wo.z > 0.0 && wi.z > 0.0) {
+        return 0.0;
+    }
+    let rule = Quadrature::new();
+    rule.loss(m, [wo.x, wo.y]) * rule.loss(m, [wi.x, wi.y]) / (PI * rule.average_loss(m))
 }

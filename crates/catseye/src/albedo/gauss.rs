@@ -1,9 +1,9 @@
 //! Gauss-Legendre quadrature.
 
-use crate::Real as _;
+use crate::Real;
 
 /// Nodes and weights of the `N`-point rule on `[0, 1]`.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub(crate) struct Gauss<const N: usize> {
     nodes: [f64; N],
     weights: [f64; N],
@@ -15,7 +15,7 @@ impl<const N: usize> Gauss<N> {
         let (mut nodes, mut weights) = ([0.0; N], [0.0; N]);
         for i in 0..N {
             let guess = core::f64::consts::PI * (i as f64 + 0.75) / (N as f64 + 0.5);
-            let mut x = guess.sin_cos().1;
+            let mut x = Real::sin_cos(guess).1;
             let mut slope = 0.0;
             for _ in 0..8 {
                 let (value, derivative) = legendre(N, x);
