@@ -1,6 +1,5 @@
 //! Pictures made of lines and text: SVG, or PNG with every edge smoothed.
 
-use std::io::Write;
 use std::path::Path;
 use std::sync::Once;
 
@@ -10,7 +9,7 @@ use plotters::style::{FontStyle, WHITE, register_font};
 
 use crate::canvas::Canvas;
 use crate::failure::Usage;
-use crate::output::OutputFile;
+use crate::output::Output;
 
 /// Bitmaps are drawn at this scale and then averaged: the backend's own wide lines have hard edges.
 const SUPERSAMPLE: u32 = 4;
@@ -53,12 +52,11 @@ impl Format {
 /// Draws the figure into a file.
 pub(crate) fn save(figure: &impl Figure, path: &Path) -> anyhow::Result<()> {
     let format = Format::of(path)?;
-    let mut file = OutputFile::create(path)?;
+    let output = Output::new(path)?;
     match format {
-        Format::Svg => file.write_all(svg(figure)?.as_bytes())?,
-        Format::Png => write_png(&mut file, figure.size(), &pixels(figure)?)?,
+        Format::Svg => output.write(svg(figure)?.as_bytes()),
+        Format::Png => output.write(&png(figure.size(), &pixels(figure)?)?),
     }
-    file.commit()
 }
 
 /// The figure as an SVG document.
@@ -107,14 +105,17 @@ fn average(buffer: &[u8], width: usize, height: usize) -> Vec<u8> {
     out
 }
 
-/// Encodes rows of RGB bytes.
-pub(crate) fn write_png(sink: impl Write, (width, height): (u32, u32), rgb: &[u8]) -> anyhow::Result<()> {
-    let mut encoder = png::Encoder::new(sink, width, height);
+/// Rows of RGB bytes as a PNG file.
+pub(crate) fn png((width, height): (u32, u32), rgb: &[u8]) -> anyhow::Result<Vec<u8>> {
+    let mut file = Vec::new();
+    let mut encoder = png::Encoder::new(&mut file, width, height);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(png::BitDepth::Eight);
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
     let mut writer = encoder.write_header()?;
     writer.write_image_data(rgb)?;
-    Ok(writer.finish()?)
+    writer.finish()?;
+    Ok(file)
 }
 
 /// Makes the shipped font known to the drawing library.

@@ -1,5 +1,16 @@
 //! The examples that `--help` ends with, and the format of the tables. A test runs every example.
 
+/// Examples of `catseye render`.
+pub(crate) const RENDER: &str = "\
+Example:
+  $ catseye render --size 320x180 --spp 4 -o night.png
+  $ catseye render materials/retro_roughness_015.mtlx -o retro.exr";
+
+/// Example of `catseye furnace`.
+pub(crate) const FURNACE: &str = "\
+Example:
+  $ catseye furnace --roughness-v 0.3 --spp 4 -o furnace.png";
+
 /// Example of `catseye eval`.
 pub(crate) const EVAL: &str = "\
 Example:

@@ -12,6 +12,7 @@ mod plot;
 mod point;
 mod progress;
 mod query;
+mod reference;
 mod report;
 mod table;
 mod verbs;

@@ -10,7 +10,7 @@ use crate::query::{PARAMS, WO};
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "A single query instead of a table")]
 pub(crate) struct PointArgs {
-    /// Roughness, or roughness_u and roughness_v
+    /// Roughness: `roughness_u`, or `roughness_u` and `roughness_v`
     #[arg(long, value_name = "U[,V]", allow_hyphen_values = true)]
     roughness: Option<String>,
     /// Direction towards the viewer

@@ -4,7 +4,7 @@ use std::io::{self, Write as _};
 use std::path::PathBuf;
 
 use anyhow::anyhow;
-use catseye::{AnyLobe, Params};
+use catseye::{AnyLobe, Model, Params};
 use csv::ByteRecord;
 use rayon::prelude::*;
 
@@ -12,7 +12,7 @@ use crate::args::{Backend, ModelArg, Precision};
 use crate::failure::Usage;
 use crate::input::Input;
 use crate::layout::Layout;
-use crate::output::OutputFile;
+use crate::output::Output;
 use crate::progress::Progress;
 use crate::query::{Cell, Row, RowError, Scalar};
 
@@ -51,7 +51,7 @@ pub(crate) trait Query: Sync {
     const ARGUMENT: Option<[&'static str; 3]>;
 
     /// The values of the added columns.
-    fn answer<T: Scalar>(lobe: &AnyLobe<T>, row: Row<'_>) -> Result<Vec<Cell>, RowError>;
+    fn answer<T: Scalar>(&self, lobe: &AnyLobe<T>, row: Row<'_>) -> Result<Vec<Cell>, RowError>;
 }
 
 impl TableArgs {
@@ -60,31 +60,33 @@ impl TableArgs {
         self.file.is_some()
     }
 
+    /// The lobe's model and the type to compute in.
+    pub(crate) fn model_and_precision(&self) -> (Model, Precision) {
+        (self.model.0, self.precision)
+    }
+
     /// Answers the queries of a table, or of the file or standard input where there is none.
-    pub(crate) fn run<Q: Query>(&self, table: Option<Input>) -> anyhow::Result<()> {
+    pub(crate) fn run(&self, query: &impl Query, table: Option<Input>) -> anyhow::Result<()> {
         if self.backend == Backend::Gpu {
             let hint =
                 "the gpu backend is not part of this version; leave --backend out to compute on the CPU";
             return Err(Usage(hint.to_owned()).into());
         }
         let input = table.map_or_else(|| Input::read(self.file.as_deref()), Ok)?;
-        let output = self.output.as_deref().map(OutputFile::create).transpose()?;
+        let output = self.output.as_deref().map(Output::new).transpose()?;
         let text = match self.precision {
-            Precision::F64 => self.answer_all::<f64, Q>(&input),
-            Precision::F32 => self.answer_all::<f32, Q>(&input),
+            Precision::F64 => self.answer_all::<f64, _>(query, &input),
+            Precision::F32 => self.answer_all::<f32, _>(query, &input),
         }?;
         match output {
             None => io::stdout().lock().write_all(&text)?,
-            Some(mut file) => {
-                file.write_all(&text)?;
-                file.commit()?;
-            }
+            Some(file) => file.write(&text)?,
         }
         Ok(())
     }
 
     /// The whole output: a bad row in the end must leave nothing behind.
-    fn answer_all<T: Scalar, Q: Query>(&self, input: &Input) -> anyhow::Result<Vec<u8>> {
+    fn answer_all<T: Scalar, Q: Query>(&self, query: &Q, input: &Input) -> anyhow::Result<Vec<u8>> {
         let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(input.text());
         let header = reader.byte_headers()?.clone();
         if header.is_empty() {
@@ -100,7 +102,7 @@ impl TableArgs {
                 break;
             }
             let done: Vec<_> =
-                batch.par_chunks(CHUNK).map(|rows| self.answer_chunk::<T, Q>(&layout, rows)).collect();
+                batch.par_chunks(CHUNK).map(|rows| self.answer_chunk::<T, Q>(query, &layout, rows)).collect();
             for chunk in done {
                 let text = chunk.map_err(|(byte, error)| anyhow!("{}: {error}", input.place(byte)))?;
                 out.extend_from_slice(&text);
@@ -114,6 +116,7 @@ impl TableArgs {
     /// The output's lines for some rows, or the byte offset of the first bad row.
     fn answer_chunk<T: Scalar, Q: Query>(
         &self,
+        query: &Q,
         layout: &Layout,
         rows: &[ByteRecord],
     ) -> Result<Vec<u8>, (u64, RowError)> {
@@ -122,7 +125,7 @@ impl TableArgs {
         for record in rows {
             let cells = layout
                 .row(record)
-                .and_then(|row| Q::answer::<T>(&self.lobe(&mut known, row)?, row))
+                .and_then(|row| query.answer::<T>(&self.lobe(&mut known, row)?, row))
                 .map_err(|error| (record.position().map_or(0, csv::Position::byte), error))?;
             layout.write(&mut lines, record, &cells);
         }

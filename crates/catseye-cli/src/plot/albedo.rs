@@ -2,7 +2,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use catseye::{AnyLobe, Lobe as _, Model, Params, Vec3};
+use catseye::{Model, ParamError, Params, Vec3};
 use plotters::prelude::{DrawingBackend, RGBColor};
 
 use super::axes::Axes;
@@ -10,7 +10,7 @@ use crate::canvas::{Canvas, GRID, INK, Lettering, MUTED};
 use crate::figure::Figure;
 
 /// The roughnesses that are shown if none are asked for.
-pub(crate) const ROUGHNESSES: [f64; 9] = [0.05, 0.15, 0.3, 0.5, 0.7, 1.0, 1.5, 3.0, f64::INFINITY];
+const ROUGHNESSES: [f64; 9] = [0.05, 0.15, 0.3, 0.5, 0.7, 1.0, 1.5, 3.0, f64::INFINITY];
 
 /// Points of a curve.
 const STEPS: u32 = 90;
@@ -35,17 +35,22 @@ struct Curve {
 
 impl AlbedoFigure {
     /// Computes the curves.
-    pub(crate) fn new(model: Model, roughnesses: &[f64]) -> anyhow::Result<Self> {
+    pub(crate) fn new(model: Model, roughnesses: Option<&[f64]>) -> anyhow::Result<Self> {
+        // The back-vector model's roughness is GGX's alpha and ends at 1.
+        let legal = if model == Model::BackVector { &ROUGHNESSES[..6] } else { &ROUGHNESSES };
+        let roughnesses = roughnesses.unwrap_or(legal);
         let mut curves = Vec::new();
         for (i, &roughness) in roughnesses.iter().enumerate() {
-            let lobe = AnyLobe::new(model, &Params::isotropic(roughness))?;
             let value = |step: u32| {
                 // The horizon itself belongs to neither side.
                 let theta = (f64::from(step) / f64::from(STEPS) * FRAC_PI_2).min(FRAC_PI_2 - 1e-6);
-                (theta.to_degrees(), lobe.albedo(Vec3::from_angles(theta, 0.0))[0])
+                let albedo =
+                    model.exact_albedo(&Params::isotropic(roughness), Vec3::from_angles(theta, 0.0))?;
+                Ok((theta.to_degrees(), albedo[0]))
             };
             let share = i as f64 / (roughnesses.len().max(2) - 1) as f64;
-            curves.push(Curve { roughness, color: shade(share), values: (0..=STEPS).map(value).collect() });
+            let values = (0..=STEPS).map(value).collect::<Result<_, ParamError>>()?;
+            curves.push(Curve { roughness, color: shade(share), values });
         }
         Ok(Self { model, curves })
     }

@@ -1,6 +1,7 @@
 //! The lobes' shape: f cos in the plane of incidence.
 
-use catseye::{AnyLobe, Lobe as _, Model, Params, Vec3};
+use anyhow::bail;
+use catseye::{AnyLobe, Lobe as _, Model, ParamError, Params, Vec3, width};
 use plotters::prelude::{DrawingBackend, RGBColor};
 
 use super::axes::{Axes as Frame, ticks};
@@ -83,35 +84,24 @@ fn legend(model: Model) -> &'static str {
     match model {
         Model::Reciprocal => "reciprocal: the proposal's lobe",
         Model::Edwards => "edwards: the paper's lobe",
-        Model::BackVector => "back-vector: MaterialX 1.39.5, roughness as GGX alpha",
+        Model::BackVector => "back-vector: MaterialX 1.39.5, GGX alpha of the same peak at 0°",
     }
 }
 
 impl LobeFigure {
     /// Computes the curves.
     pub(crate) fn new(request: Request) -> anyhow::Result<Self> {
-        let [roughness_u, roughness_v] = request.roughness;
-        let params = Params::anisotropic(roughness_u, roughness_v);
-        let phi = request.phi_deg.to_radians();
-        let width = roughness_u.min(roughness_v).min(1.0);
-        let mut panels = Vec::new();
-        for &theta_deg in &request.theta_deg {
-            let angles = angles(theta_deg, width.to_degrees());
-            let mut curves = Vec::new();
-            // Wide lines first.
-            for &model in request.models.iter().rev() {
-                let lobe = AnyLobe::new(model, &params)?;
-                let wo = Vec3::from_angles(theta_deg.to_radians(), phi);
-                let value = |&angle: &f64| {
-                    let wi = Vec3::from_angles(angle.to_radians(), phi);
-                    (angle, lobe.eval(wo, wi)[0] * wi.z.max(0.0))
-                };
-                curves.push(Curve { model, values: angles.iter().map(value).collect() });
-            }
-            panels.push(Panel { theta_deg, curves });
+        let lobes = request.models.iter().map(|&model| Ok((model, prepare(model, request.roughness)?)));
+        let lobes = lobes.collect::<Result<Vec<_>, ParamError>>()?;
+        if lobes.iter().any(|(_, lobe)| lobe.is_dirac()) {
+            bail!(
+                "roughness 0 is a perfect retro-reflector, a lobe without width: there is no curve to plot"
+            );
         }
+        let panels: Vec<_> =
+            request.theta_deg.iter().map(|&theta_deg| panel(&request, &lobes, theta_deg)).collect();
         let values = panels.iter().flat_map(|panel| &panel.curves).flat_map(|curve| &curve.values);
-        let greatest = values.map(|&(_, value)| value).fold(0.0, f64::max);
+        let greatest = values.map(|&(_, value)| value).fold(f64::MIN_POSITIVE, f64::max);
         Ok(Self { request, panels, greatest })
     }
 
@@ -124,6 +114,30 @@ impl LobeFigure {
         };
         format!("Light sent back by the lobe of roughness {u}{across}{plane}")
     }
+}
+
+/// The model's lobe. The back-vector model's alpha is the one that gives it the others' peak at normal incidence.
+fn prepare(model: Model, roughness: [f64; 2]) -> Result<AnyLobe<f64>, ParamError> {
+    let params = Params::anisotropic(roughness[0], roughness[1]);
+    params.validate()?;
+    let [u, v] = if model == Model::BackVector { roughness.map(width) } else { roughness };
+    AnyLobe::new(model, &Params::anisotropic(u, v))
+}
+
+fn panel(request: &Request, lobes: &[(Model, AnyLobe<f64>)], theta_deg: f64) -> Panel {
+    let [u, v] = request.roughness;
+    let phi = request.phi_deg.to_radians();
+    let wo = Vec3::from_angles(theta_deg.to_radians(), phi);
+    let angles = angles(theta_deg, width(u.min(v)).to_degrees());
+    let curve = |&(model, lobe): &(Model, AnyLobe<f64>)| {
+        let value = |&angle: &f64| {
+            let wi = Vec3::from_angles(angle.to_radians(), phi);
+            (angle, lobe.eval(wo, wi)[0] * wi.z.max(0.0))
+        };
+        Curve { model, values: angles.iter().map(value).collect() }
+    };
+    // The first model's curve is drawn last, on top.
+    Panel { theta_deg, curves: lobes.iter().rev().map(curve).collect() }
 }
 
 /// Angles of a curve in degrees: everywhere, and closer around the retro direction.

@@ -1,14 +1,16 @@
 //! `catseye albedo`: the directional albedo for each row.
 
-use catseye::{AnyLobe, Lobe as _};
+use catseye::{AnyLobe, Lobe as _, Model};
 
+use crate::args::Precision;
 use crate::point::PointArgs;
 use crate::query::{Cell, Row, RowError, Scalar};
 use crate::table::{Query, TableArgs};
 
 /// Directional albedo: CSV in, CSV out
 ///
-/// Adds albedo_r, albedo_g, albedo_b: the share of the energy arriving along wo that is reflected, in [0, 1].
+/// Adds `albedo_r`, `albedo_g`, `albedo_b`: the share of the energy arriving along wo that is reflected, in [0, 1]. Exact to 1e-9
+/// in f64, by quadrature; in f32 the fast approximation that eval and sample use.
 #[derive(Debug, clap::Args)]
 #[command(after_help = crate::help::ALBEDO, after_long_help = crate::help::table(crate::help::ALBEDO))]
 pub(crate) struct Args {
@@ -21,17 +23,25 @@ pub(crate) struct Args {
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
         let table = self.point.table(None, self.table.has_file())?;
-        self.table.run::<Albedo>(table)
+        let (model, precision) = self.table.model_and_precision();
+        self.table.run(&Albedo { model, precision }, table)
     }
 }
 
-struct Albedo;
+struct Albedo {
+    model: Model,
+    precision: Precision,
+}
 
 impl Query for Albedo {
     const ADDED: &'static [&'static str] = &["albedo_r", "albedo_g", "albedo_b"];
     const ARGUMENT: Option<[&'static str; 3]> = None;
 
-    fn answer<T: Scalar>(lobe: &AnyLobe<T>, row: Row<'_>) -> Result<Vec<Cell>, RowError> {
-        Ok(lobe.albedo(row.wo()?).map(T::cell).to_vec())
+    fn answer<T: Scalar>(&self, lobe: &AnyLobe<T>, row: Row<'_>) -> Result<Vec<Cell>, RowError> {
+        if self.precision == Precision::F32 {
+            return Ok(lobe.albedo(row.wo()?).map(T::cell).to_vec());
+        }
+        let exact = self.model.exact_albedo(&row.params()?, row.wo()?);
+        Ok(exact.map_err(|error| Row::out_of_range(&error))?.map(Cell::F64).to_vec())
     }
 }

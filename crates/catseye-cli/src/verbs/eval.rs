@@ -8,7 +8,7 @@ use crate::table::{Query, TableArgs};
 
 /// Evaluate the BSDF: CSV in, CSV out
 ///
-/// Adds f_r, f_g, f_b [1/sr, cosine not included] and pdf [1/sr], the density with which `sample` chooses wi. Both are 0
+/// Adds `f_r`, `f_g`, `f_b` [1/sr, cosine not included] and `pdf` [1/sr], the density with which `sample` chooses wi. Both are 0
 /// below the horizon and for roughness 0, a Dirac lobe that only `sample` can meet.
 #[derive(Debug, clap::Args)]
 #[command(after_help = crate::help::EVAL, after_long_help = crate::help::table(crate::help::EVAL))]
@@ -25,7 +25,7 @@ pub(crate) struct Args {
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
         let table = self.point.table(Some(("wi", WI, self.wi.as_deref())), self.table.has_file())?;
-        self.table.run::<Eval>(table)
+        self.table.run(&Eval, table)
     }
 }
 
@@ -35,7 +35,7 @@ impl Query for Eval {
     const ADDED: &'static [&'static str] = &["f_r", "f_g", "f_b", "pdf"];
     const ARGUMENT: Option<[&'static str; 3]> = Some(WI);
 
-    fn answer<T: Scalar>(lobe: &AnyLobe<T>, row: Row<'_>) -> Result<Vec<Cell>, RowError> {
+    fn answer<T: Scalar>(&self, lobe: &AnyLobe<T>, row: Row<'_>) -> Result<Vec<Cell>, RowError> {
         let (f, pdf) = lobe.eval_pdf(row.wo()?, row.wi()?);
         Ok(f.into_iter().chain([pdf]).map(T::cell).collect())
     }

@@ -1,7 +1,232 @@
+//! `catseye furnace`: the proposal's furnace figure, and its numbers.
+
+use std::fmt::Write as _;
+use std::path::PathBuf;
+
+use anyhow::bail;
+use catseye::{AnyLobe, Lobe as _, Params, Vec3};
+use catseye_render::{Image, encode_srgb, furnace};
+use rayon::prelude::*;
+use serde_json::{Value, json};
+
+use crate::args::ModelArg;
+use crate::failure::Usage;
+use crate::output::Output;
+use crate::plot::furnace::{FurnaceFigure, Tile};
+use crate::progress::Progress;
+use crate::{help, reference, report};
+
+/// The proposal's columns.
+const ROUGHNESSES: [f64; 10] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9];
+/// Samples of each number for each sample of a pixel.
+const SAMPLES: u32 = 4096;
+/// Side of a sphere's picture in pixels.
+const TILE: usize = 116;
+
+/// Reproduce the proposal's furnace figure, as a picture and as numbers
+///
+/// Spheres in a white environment of radiance 1: one that loses no energy can't be seen. The upper row shows single
+/// scattering (`multiscatter_tint` 0), the lower one multiple scattering (`multiscatter_tint` 1). The numbers are the share of
+/// light that comes back at normal incidence and from the whole sphere, measured by sampling the lobe; beside each stands
+/// the exact value.
 #[derive(Debug, clap::Args)]
-pub(crate) struct Args {}
+#[command(after_help = help::FURNACE)]
+pub(crate) struct Args {
+    /// Picture to write, .png
+    #[arg(short, long, value_name = "FILE", default_value = "furnace.png")]
+    output: PathBuf,
+    /// Roughness across the tangent [default: as along it]
+    #[arg(long, value_name = "R")]
+    roughness_v: Option<f64>,
+    /// Samples per pixel; each number takes 4096 times as many
+    #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    spp: u32,
+    /// Which lobe
+    #[arg(long, value_enum, default_value_t)]
+    model: ModelArg,
+    /// Print the numbers as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// The two rows of the figure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Scattering {
+    Single,
+    Multiple,
+}
+
+impl Scattering {
+    /// From top to bottom.
+    pub(crate) const ALL: [Self; 2] = [Self::Single, Self::Multiple];
+
+    /// The word for it.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Single => "single",
+            Self::Multiple => "multiple",
+        }
+    }
+}
+
+/// A measured number and what it must be.
+#[derive(Clone, Copy, Debug)]
+struct Check {
+    measured: f64,
+    expected: f64,
+}
+
+/// One sphere of the figure.
+#[derive(Debug)]
+struct Cell {
+    params: Params<f64>,
+    scattering: Scattering,
+    normal: Check,
+    sphere: Check,
+    image: Image,
+}
+
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
-        Ok(())
+        if !self.output.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
+            bail!(Usage(format!("{}: the name must end in .png", self.output.display())));
+        }
+        let output = Output::new(&self.output)?;
+        let cells = self.measure()?;
+        let figure = self.figure(&cells);
+        output.write(&figure.png()?)?;
+        let facts = json!({ "output": output.name(), "model": self.model.0.name(), "rows": rows(&cells) });
+        report::print(self.json, &facts, &format!("{}\nwrote {}", table(&cells), output.name()))
     }
+
+    fn measure(&self) -> anyhow::Result<Vec<Cell>> {
+        let progress = Progress::new("spheres", 2 * ROUGHNESSES.len() as u64);
+        let mut cells = Vec::new();
+        for scattering in Scattering::ALL {
+            for roughness in ROUGHNESSES {
+                cells.push(self.cell(roughness, scattering)?);
+                progress.set(cells.len() as u64);
+            }
+        }
+        Ok(cells)
+    }
+
+    fn cell(&self, roughness: f64, scattering: Scattering) -> anyhow::Result<Cell> {
+        let share = if scattering == Scattering::Multiple { 1.0 } else { 0.0 };
+        let params = Params::anisotropic(roughness, self.roughness_v.unwrap_or(roughness))
+            .with_multiscatter_tint([share; 3]);
+        let model = self.model.0;
+        let normal = Vec3::new(0.0, 0.0, 1.0);
+        let samples = self.spp * SAMPLES;
+        let lobe = AnyLobe::new(model, &params)?;
+        Ok(Cell {
+            params,
+            scattering,
+            normal: Check {
+                measured: mean_weight(&lobe, samples, |_| normal),
+                expected: model.exact_albedo(&params, normal)?[0],
+            },
+            sphere: Check {
+                measured: mean_weight(&lobe, samples, disk_direction),
+                expected: reference::average(model, &params)?[0],
+            },
+            image: furnace::sphere(AnyLobe::new(model, &single_precision(&params))?, TILE, self.spp)?,
+        })
+    }
+
+    fn figure(&self, cells: &[Cell]) -> FurnaceFigure {
+        let tile = |cell: &Cell| Tile {
+            roughness: cell.params.roughness_u,
+            measured: cell.sphere.measured,
+            expected: cell.sphere.expected,
+            rgb: cell.image.pixels().iter().flat_map(|pixel| pixel.map(encode_srgb)).collect(),
+        };
+        FurnaceFigure {
+            model: self.model.0,
+            roughness_v: self.roughness_v,
+            side: TILE,
+            tiles: cells.iter().map(tile).collect(),
+        }
+    }
+}
+
+fn single_precision(params: &Params<f64>) -> Params<f32> {
+    Params {
+        roughness_u: params.roughness_u as f32,
+        roughness_v: params.roughness_v.map(|roughness| roughness as f32),
+        tint: params.tint.map(|x| x as f32),
+        multiscatter_tint: params.multiscatter_tint.map(|x| x as f32),
+    }
+}
+
+/// The mean weight of a lobe's samples: a Monte Carlo estimate of its albedo in the directions that two of the uniform
+/// numbers make.
+fn mean_weight(lobe: &AnyLobe<f64>, samples: u32, direction: impl Fn([f64; 2]) -> Vec3<f64> + Sync) -> f64 {
+    let weight = |i| {
+        let [a, b, u @ ..] = evenly_spread(i);
+        lobe.sample(direction([a, b]), u).map_or(0.0, |sample| sample.weight[0])
+    };
+    // Sums of fixed parts, added in order: the same for any number of threads.
+    let parts: Vec<f64> = (0..SAMPLES)
+        .into_par_iter()
+        .map(|part| (part..samples).step_by(SAMPLES as usize).map(weight).sum())
+        .collect();
+    parts.iter().sum::<f64>() / f64::from(samples)
+}
+
+/// Where the viewer is, seen from the point of a sphere that an evenly chosen point of its disk shows.
+fn disk_direction([a, b]: [f64; 2]) -> Vec3<f64> {
+    let sin_theta = a.sqrt();
+    Vec3::from_angles(sin_theta.asin(), b * std::f64::consts::TAU)
+}
+
+/// The i-th point of a sequence that fills the unit cube evenly.
+///
+/// Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018: multiples of the powers of 1/g modulo 1,
+/// where g is the real root of x^6 = x + 1.
+fn evenly_spread(i: u32) -> [f64; 5] {
+    const G: f64 = 1.134_724_138_401_519_5;
+    [1, 2, 3, 4, 5].map(|power| (0.5 + f64::from(i) * G.powi(-power)).fract())
+}
+
+fn rows(cells: &[Cell]) -> Vec<Value> {
+    let check = |check: Check| json!({ "measured": check.measured, "expected": check.expected });
+    // JSON has no infinity.
+    let number = |x: f64| if x.is_finite() { json!(x) } else { json!(x.to_string()) };
+    let row = |cell: &Cell| {
+        let [roughness_u, roughness_v] = cell.params.roughness();
+        json!({
+            "scattering": cell.scattering.name(),
+            "roughness_u": number(roughness_u),
+            "roughness_v": number(roughness_v),
+            "normal": check(cell.normal),
+            "sphere": check(cell.sphere),
+        })
+    };
+    cells.iter().map(row).collect()
+}
+
+/// The numbers for people: one block for each row of the figure.
+fn table(cells: &[Cell]) -> String {
+    let mut text = String::new();
+    let mut worst: f64 = 0.0;
+    for scattering in Scattering::ALL {
+        // Writing to a string can't fail.
+        let name = scattering.name();
+        writeln!(text, "{name} scattering").ok();
+        writeln!(text, "                 normal incidence      whole sphere").ok();
+        writeln!(text, "     roughness   measured  expected    measured  expected").ok();
+        for cell in cells.iter().filter(|cell| cell.scattering == scattering) {
+            let [u, v] = cell.params.roughness();
+            let roughness = if u == v { u.to_string() } else { format!("{u}, {v}") };
+            let Cell { normal, sphere, .. } = cell;
+            let [a, b] = [normal, sphere].map(|c| format!("{:8.5}  {:8.5}", c.measured, c.expected));
+            writeln!(text, "{roughness:>14}   {a}    {b}").ok();
+            worst =
+                [normal, sphere].map(|c| (c.measured - c.expected).abs()).into_iter().fold(worst, f64::max);
+        }
+        writeln!(text).ok();
+    }
+    write!(text, "largest difference {worst:.1e}").ok();
+    text
 }

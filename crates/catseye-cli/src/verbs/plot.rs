@@ -34,13 +34,16 @@ impl Args {
 }
 
 /// Which way the light goes: f cos in the plane of incidence, one panel for each angle, one curve for each model
+///
+/// The back-vector model is drawn with the GGX alpha that gives it the peak of the others at normal incidence:
+/// sqrt(r^2 / (r^2 + 2)) for the roughness r.
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::PLOT_LOBE)]
 struct LobeArgs {
     /// File to write, .svg or .png
     #[arg(short, long, value_name = "FILE", default_value = "lobe.svg")]
     output: PathBuf,
-    /// Roughness along the tangent, 0.01 or more
+    /// Roughness along the tangent, above 0
     #[arg(long, value_name = "R", default_value_t = 0.3)]
     roughness: f64,
     /// Roughness across the tangent [default: as --roughness]
@@ -89,9 +92,9 @@ struct AlbedoArgs {
     /// File to write, .svg or .png
     #[arg(short, long, value_name = "FILE", default_value = "albedo.svg")]
     output: PathBuf,
-    /// Roughnesses, 1 to 12 of them, in [0, inf]
-    #[arg(long, value_name = "R,...", value_delimiter = ',', default_values_t = albedo::ROUGHNESSES)]
-    roughness: Vec<f64>,
+    /// Roughnesses, 1 to 12 of them [default: a range of them]
+    #[arg(long, value_name = "R,...", value_delimiter = ',')]
+    roughness: Option<Vec<f64>>,
     /// Which lobe
     #[arg(long, value_enum, default_value_t)]
     model: ModelArg,
@@ -102,10 +105,10 @@ struct AlbedoArgs {
 
 impl AlbedoArgs {
     fn run(&self) -> anyhow::Result<()> {
-        if self.roughness.len() > 12 {
+        if self.roughness.as_ref().is_some_and(|values| values.len() > 12) {
             bail!(Usage("--roughness takes at most 12 values here".to_owned()));
         }
-        finish(&albedo::AlbedoFigure::new(self.model.0, &self.roughness)?, &self.output, self.json)
+        finish(&albedo::AlbedoFigure::new(self.model.0, self.roughness.as_deref())?, &self.output, self.json)
     }
 }
 

@@ -8,9 +8,9 @@ use crate::table::{Query, TableArgs};
 
 /// Sample the BSDF: CSV in, CSV out
 ///
-/// Adds the direction wi_x, wi_y, wi_z that u1, u2, u3 choose, weight_r, weight_g, weight_b = f cos / pdf, the density pdf
-/// [1/sr], and lobe: single, multiple, dirac (its pdf stands for a certain direction: 1), or none with zeros
-/// where wo is below the horizon.
+/// Adds the direction `wi_x`, `wi_y`, `wi_z` that `u1`, `u2`, `u3` choose, `weight_r`, `weight_g`, `weight_b` = f cos / pdf,
+/// the density `pdf` [1/sr], and `lobe`: single, multiple, dirac (a direction without alternatives; its pdf is given as 1), or
+/// none, with zeros, where wo is below the horizon.
 #[derive(Debug, clap::Args)]
 #[command(after_help = crate::help::SAMPLE, after_long_help = crate::help::table(crate::help::SAMPLE))]
 pub(crate) struct Args {
@@ -26,7 +26,7 @@ pub(crate) struct Args {
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
         let table = self.point.table(Some(("u", U, self.u.as_deref())), self.table.has_file())?;
-        self.table.run::<Draw>(table)
+        self.table.run(&Draw, table)
     }
 }
 
@@ -37,7 +37,7 @@ impl Query for Draw {
         &["wi_x", "wi_y", "wi_z", "weight_r", "weight_g", "weight_b", "pdf", "lobe"];
     const ARGUMENT: Option<[&'static str; 3]> = Some(U);
 
-    fn answer<T: Scalar>(lobe: &AnyLobe<T>, row: Row<'_>) -> Result<Vec<Cell>, RowError> {
+    fn answer<T: Scalar>(&self, lobe: &AnyLobe<T>, row: Row<'_>) -> Result<Vec<Cell>, RowError> {
         let Some(Sample { wi, weight, pdf, lobe }) = lobe.sample(row.wo()?, row.u()?) else {
             return Ok([T::ZERO.cell(); 7].into_iter().chain([Cell::Word("none")]).collect());
         };

@@ -13,7 +13,8 @@ fn fails(args: &str, stdin: &str) -> (i32, String) {
 /// Evaluates a good row and then the given one.
 fn bad_row(row: &str) -> String {
     let header = "roughness_u,roughness_v,tint_r,multiscatter_tint_b,wo_x,wo_y,wo_z,wi_x,wi_y,wi_z";
-    let (code, message) = fails("eval", &format!("{header}\n1,1,1,1,0,0,1,0,0,1\n{row}\n1,1,1,1,0,0,1,0,0,1\n"));
+    let (code, message) =
+        fails("eval", &format!("{header}\n1,1,1,1,0,0,1,0,0,1\n{row}\n1,1,1,1,0,0,1,0,0,1\n"));
     assert_eq!(code, 1, "{message}");
     message
 }
@@ -67,10 +68,10 @@ fn a_bad_header_is_named() {
 #[test]
 fn lines_are_counted_as_an_editor_does() {
     let header = "roughness_u,note,wo_x,wo_y,wo_z";
-    let bad = "catseye: <stdin>:6: column roughness_u: \"x\" is not a number".to_owned();
-    let rows = "\n1,\"two\nlines\",0,0,1\n\n";
-    assert_eq!(fails("albedo", &format!("{header}\n{rows}x,,0,0,1\n")).1, bad.replace(":6", ":7"));
-    assert_eq!(fails("albedo", &format!("{header}{rows}x,,0,0,1\n").replace('\n', "\r\n")).1, bad);
+    let table = format!("{header}\n\n1,\"two\nlines\",0,0,1\n\nx,,0,0,1\n");
+    let expected = "catseye: <stdin>:6: column roughness_u: \"x\" is not a number";
+    assert_eq!(fails("albedo", &table).1, expected);
+    assert_eq!(fails("albedo", &table.replace('\n', "\r\n")).1, expected);
 }
 
 #[test]
@@ -89,7 +90,10 @@ fn a_file_s_errors_name_the_file_and_leave_no_output() {
     let bench = Bench::new();
     bench.write("in.csv", "roughness_u,wo_x,wo_y,wo_z\n1,0,0,1\n1,0,0,nan\n");
     let outcome = bench.catseye("albedo in.csv -o out.csv", "");
-    assert_eq!((outcome.code, outcome.stderr.as_str()), (1, "catseye: in.csv:3: column wo_z: \"nan\" is not a number\n"));
+    assert_eq!(
+        (outcome.code, outcome.stderr.as_str()),
+        (1, "catseye: in.csv:3: column wo_z: \"nan\" is not a number\n")
+    );
     assert_eq!(bench.files(), ["in.csv"]);
 }
 
@@ -118,7 +122,10 @@ fn missing_files_and_unwritable_outputs_are_named() {
 fn wrong_use_has_exit_code_2() {
     let cases = [
         ("eval --roughness 1 --wo 0,0,1", "catseye: a single query needs --wi (see --help)"),
-        ("eval --roughness 1 --wo 0,1 --wi 0,0,1", "catseye: --wo 0,1: 3 numbers with commas between them are needed"),
+        (
+            "eval --roughness 1 --wo 0,1 --wi 0,0,1",
+            "catseye: --wo 0,1: 3 numbers with commas between them are needed",
+        ),
         ("albedo in.csv --wo 0,0,1", "catseye: give a table or the options of a single query, not both"),
         ("plot lobe -o lobe.jpg", "catseye: lobe.jpg: the name must end in .svg or .png"),
         ("plot lobe --theta 95", "catseye: --theta takes 1 to 4 angles, each in [0, 90)"),

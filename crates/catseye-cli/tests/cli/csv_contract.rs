@@ -44,13 +44,19 @@ fn sample_prints_what_eval_confirms() {
                  0.3,0.6,1,0.6,0,0.8,0.1,0.2,0.3\n0.3,0.6,1,0,0.6,0.8,0.7,0.999,0.9\n";
     let sampled = output("sample", table);
     let checked = output("eval", &sampled);
-    assert_eq!(column(&sampled, "pdf"), column(&checked, "pdf"), "the density of the same direction");
-    let values = |text, name| column(text, name).into_iter();
+    for (a, b) in column(&sampled, "pdf").into_iter().zip(column(&checked, "pdf")) {
+        assert!((a - b).abs() <= 1e-12 * b, "the density of the same direction: {a}, {b}");
+    }
+    let (pdf, cos) = (column(&sampled, "pdf"), column(&sampled, "wi_z"));
     for channel in ["r", "g", "b"] {
-        let f = values(&checked, &format!("f_{channel}")).zip(values(&checked, "wi_z"));
-        let weighted = values(&sampled, &format!("weight_{channel}")).zip(values(&sampled, "pdf"));
-        for ((f, cos), (weight, pdf)) in f.zip(weighted) {
-            assert!((weight * pdf - f * cos).abs() <= 1e-12 * f * cos, "{channel}: {weight} {pdf} {f} {cos}");
+        let f = column(&checked, &format!("f_{channel}"));
+        let weight = column(&sampled, &format!("weight_{channel}"));
+        for row in 0..f.len() {
+            let (a, b) = (weight[row] * pdf[row], f[row] * cos[row]);
+            assert!(
+                (a - b).abs() <= 1e-12 * b,
+                "weight * pdf = f cos: {a}, {b}, channel {channel}, row {row}"
+            );
         }
     }
 }
@@ -103,7 +109,8 @@ fn tints_act_on_their_channels() {
 
 #[test]
 fn infinite_roughness_is_legal() {
-    let text = output("eval", "roughness_u,wo_x,wo_y,wo_z,wi_x,wi_y,wi_z\ninf,0,0,1,0,0,1\nInf,0,0,1,0,0,1\n");
+    let text =
+        output("eval", "roughness_u,wo_x,wo_y,wo_z,wi_x,wi_y,wi_z\ninf,0,0,1,0,0,1\nInf,0,0,1,0,0,1\n");
     let expected = 0.25 / std::f64::consts::PI;
     for f in column(&text, "f_r") {
         assert!((f - expected).abs() < 1e-15, "{f}, expected {expected}");
@@ -112,7 +119,8 @@ fn infinite_roughness_is_legal() {
 
 #[test]
 fn zero_roughness_is_a_dirac_lobe_and_the_horizon_a_border() {
-    let text = output("sample", "roughness_u,wo_x,wo_y,wo_z,u1,u2,u3\n0,0.6,0,0.8,0,0,0\n1,0.6,0,-0.8,0,0,0\n");
+    let text =
+        output("sample", "roughness_u,wo_x,wo_y,wo_z,u1,u2,u3\n0,0.6,0,0.8,0,0,0\n1,0.6,0,-0.8,0,0,0\n");
     assert!(text.contains(",0.6,0.0,0.8,1.0,1.0,1.0,1.0,dirac\n"), "{text}");
     assert!(text.ends_with(",0.0,0.0,0.0,0.0,0.0,0.0,0.0,none\n"), "{text}");
 }

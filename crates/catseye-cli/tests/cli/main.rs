@@ -1,7 +1,10 @@
 //! The promises of the command, kept by the binary itself: one file for each kind.
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 mod bad_input;
 mod csv_contract;
+mod furnace_table;
 mod help;
 mod plots;
+mod render_files;
 mod run;

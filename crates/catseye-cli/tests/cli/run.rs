@@ -35,7 +35,8 @@ impl Bench {
     /// Names of everything in the folder, sorted.
     pub(crate) fn files(&self) -> Vec<String> {
         let entries = fs::read_dir(self.0.path()).unwrap();
-        let mut names: Vec<_> = entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
+        let mut names: Vec<_> =
+            entries.map(|entry| entry.unwrap().file_name().into_string().unwrap()).collect();
         names.sort();
         names
     }
@@ -57,13 +58,21 @@ impl Bench {
     }
 
     fn finish(&self, mut command: Command, stdin: &str) -> Outcome {
-        command.current_dir(self.0.path()).stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped());
+        command
+            .current_dir(self.0.path())
+            .stdin(Stdio::piped())
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped());
         let mut child = command.spawn().unwrap();
         // A command that fails before it reads leaves the pipe broken.
         child.stdin.take().unwrap().write_all(stdin.as_bytes()).ok();
         let output = child.wait_with_output().unwrap();
         let text = |bytes| String::from_utf8(bytes).unwrap();
-        Outcome { code: output.status.code().unwrap(), stdout: text(output.stdout), stderr: text(output.stderr) }
+        Outcome {
+            code: output.status.code().unwrap(),
+            stdout: text(output.stdout),
+            stderr: text(output.stderr),
+        }
     }
 }
 
@@ -82,6 +91,7 @@ pub(crate) fn cells(text: &str) -> Vec<Vec<&str>> {
 /// The numbers of one column of a CSV text without quotes.
 pub(crate) fn column(text: &str, name: &str) -> Vec<f64> {
     let rows = cells(text);
-    let field = rows[0].iter().position(|&other| other == name).unwrap_or_else(|| panic!("no {name} in {text}"));
+    let field =
+        rows[0].iter().position(|&other| other == name).unwrap_or_else(|| panic!("no {name} in {text}"));
     rows[1..].iter().map(|row| row[field].parse().unwrap()).collect()
 }
