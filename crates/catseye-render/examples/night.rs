@@ -17,9 +17,11 @@ fn main() -> Result<(), catseye_render::Error> {
                 name: "preview".to_owned(),
                 bsdf: catseye_materialx::Closure::RetroReflective {
                     weight: 1.0,
-                    params: catseye::Params::isotropic(std::env::var("PREVIEW").unwrap().parse().unwrap())
-                        .with_tint([0.9, 0.8, 0.3])
-                        .with_multiscatter_tint([0.2, 0.2, 0.9]),
+                    params: catseye::Params::isotropic(
+                        std::env::var("PREVIEW").ok().and_then(|p| p.parse().ok()).unwrap_or(0.1),
+                    )
+                    .with_tint([0.9, 0.8, 0.3])
+                    .with_multiscatter_tint([0.2, 0.2, 0.9]),
                     tangent_u: None,
                 },
                 opacity: 1.0,

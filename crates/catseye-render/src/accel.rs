@@ -1,16 +1,19 @@
 //! Finding what a ray meets: a bounding volume hierarchy over triangles and spheres.
 
-use std::time::Duration;
-
 use glam::Vec3;
 use obvhs::aabb::Aabb;
+use obvhs::bvh2::reinsertion::ReinsertionOptimizer;
 use obvhs::cwbvh::CwBvh;
-use obvhs::cwbvh::builder::build_cwbvh;
+use obvhs::cwbvh::bvh2_to_cwbvh::bvh2_to_cwbvh;
+use obvhs::ploc::PlocBuilder;
 use obvhs::ray::RayHit;
 use obvhs::{Boundable, BvhBuildParams};
 
 use crate::triangle::{ShearedRay, intersect_triangle};
 use crate::{Ray, Sphere};
+
+/// Primitives in a leaf: the most that the format holds.
+const MAX_LEAF: u32 = 3;
 
 /// Something that a ray can meet.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +47,7 @@ impl Accel {
         if primitives.is_empty() {
             return (Self::default(), Vec::new());
         }
-        let bvh = build_cwbvh(primitives, BvhBuildParams::medium_build(), &mut Duration::default());
+        let bvh = build(primitives);
         let order = bvh.primitive_indices.clone();
         let primitives = order.iter().map(|&i| primitives[i as usize]).collect();
         (Self { bvh: Some(bvh), primitives }, order)
@@ -79,6 +82,21 @@ impl Accel {
         };
         t.unwrap_or(f32::INFINITY)
     }
+}
+
+/// As `obvhs::cwbvh::builder::build_cwbvh`, without its self-check in debug builds: that has an absolute tolerance of
+/// 1e-5, less than the rounding of scenes beyond a hundred metres.
+fn build(primitives: &[Primitive]) -> CwBvh {
+    let params = BvhBuildParams::medium_build();
+    let mut bvh2 = PlocBuilder::with_capacity(primitives.len()).build(
+        params.ploc_search_distance,
+        primitives,
+        (0..primitives.len() as u32).collect(),
+        params.sort_precision,
+        params.search_depth_threshold,
+    );
+    ReinsertionOptimizer::default().run(&mut bvh2, params.reinsertion_batch_ratio, None);
+    bvh2_to_cwbvh(&bvh2, MAX_LEAF, true, false)
 }
 
 fn traversal(ray: &Ray) -> obvhs::ray::Ray {

@@ -32,7 +32,7 @@ impl Sampler {
     }
 }
 
-/// Mixes a value into a hash (the finaliser of MurmurHash3, Austin Appleby, public domain).
+/// Mixes a value into a hash (the finaliser of `MurmurHash3`, Austin Appleby, public domain).
 #[inline]
 pub(crate) fn combine(hash: u32, value: u32) -> u32 {
     let mut h = hash.rotate_left(13) ^ value.wrapping_mul(0x85eb_ca6b);

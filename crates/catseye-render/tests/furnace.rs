@@ -9,7 +9,7 @@ use common::{SMALL, dielectric, diffuse, layer, picture, retro};
 
 /// The largest distance of any pixel from 1.
 fn visibility(bsdf: Bsdf, spp: u32, depth: u32) -> f32 {
-    let image = picture(&furnace::scene(bsdf).unwrap(), SMALL, spp, depth);
+    let image = picture(&furnace::scene(bsdf).expect("a furnace"), SMALL, spp, depth);
     image.pixels().iter().flatten().map(|v| (v - 1.0).abs()).fold(0.0, f32::max)
 }
 
@@ -28,8 +28,8 @@ fn white_lobes_vanish() {
 #[test]
 fn white_diffuse_vanishes() {
     for roughness in [0.0, 0.5, 1.0] {
-        let seen = visibility(Bsdf::new(&diffuse(1.0, roughness)).unwrap(), 256, 4);
-        // 256 samples of a weight that varies by some tenths.
+        let seen = visibility(Bsdf::new(&diffuse(1.0, roughness)).unwrap(), 1024, 4);
+        // 1024 samples of a weight that varies by some tenths.
         assert!(seen < 0.05, "roughness {roughness}: {seen}");
     }
 }

@@ -16,8 +16,9 @@ const INTENSITY: f32 = 1000.0;
 /// Radiance of a panel seen from the camera, and in closed form for a point-like lamp.
 fn seen_and_expected(roughness: f32, observation_angle: f32, lamp_radius: f32) -> [f32; 2] {
     let params = Params::isotropic(roughness).with_tint([0.1, 0.5, 1.0]);
-    let lobe = AnyLobe::<f32>::new(Model::Reciprocal, &params).unwrap();
-    let eye = Vec3::Z * DISTANCE;
+    let lobe = AnyLobe::<f32>::new(Model::Reciprocal, &params).expect("legal parameters");
+    // Before the lamp, so that it isn't in the way.
+    let eye = Vec3::Z * (0.5 * DISTANCE);
     let lamp = DISTANCE * Vec3::new(observation_angle.sin(), 0.0, observation_angle.cos());
     let mut builder = SceneBuilder::new(Camera::perspective(eye, Vec3::ZERO, Vec3::Y, 1e-5));
     let sheeting = builder.material(Bsdf::from_lobe(lobe));
@@ -31,7 +32,7 @@ fn seen_and_expected(roughness: f32, observation_angle: f32, lamp_radius: f32) -
         Box::new(SphereLight::new(sphere, Vec3::splat(INTENSITY / area)))
     };
     builder.boxed_light(light);
-    let seen = picture(&builder.build().unwrap(), [2, 2], 256, 1).mean()[1];
+    let seen = picture(&builder.build().expect("a legal scene"), [2, 2], 256, 1).mean()[1];
 
     let frame = Frame::from_normal(Vec3::new(ENTRANCE_ANGLE.sin(), 0.0, ENTRANCE_ANGLE.cos()));
     let local = |w: Vec3| catseye::Vec3::from(frame.to_local(w).to_array());

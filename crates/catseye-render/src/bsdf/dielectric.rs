@@ -24,8 +24,15 @@ pub(crate) struct Dielectric {
     reflects: bool,
     transmits: bool,
     smooth: bool,
-    /// Reflected share from outside and from inside, without tint.
-    reflectance: [AlbedoTable; 2],
+    /// What happens to light from outside and from inside.
+    shares: [Shares; 2],
+}
+
+/// Shares of the energy as functions of the direction, without tint. Rough facets hide some of either.
+#[derive(Clone, Debug, PartialEq)]
+struct Shares {
+    reflected: AlbedoTable,
+    transmitted: AlbedoTable,
 }
 
 impl Dielectric {
@@ -34,10 +41,16 @@ impl Dielectric {
         let smooth = alpha[0].max(alpha[1]) < SMOOTH_ALPHA || (ior - 1.0).abs() < EQUAL_INDEX;
         let ggx = Ggx { alpha: alpha.map(|a| a.clamp(SMOOTH_ALPHA, 1.0)) };
         let isotropic = smooth || alpha[0] == alpha[1];
-        let table = |eta: f32| {
-            AlbedoTable::new(isotropic, |wo| {
-                if smooth { fresnel_dielectric(wo.z, eta) } else { rough_reflectance(ggx, wo, eta) }
-            })
+        let shares = |eta: f32| {
+            let table = |share: fn(Ggx, Vec3, f32) -> f32, smooth_share: fn(f32) -> f32| {
+                AlbedoTable::new(isotropic, |wo| {
+                    if smooth { smooth_share(fresnel_dielectric(wo.z, eta)) } else { share(ggx, wo, eta) }
+                })
+            };
+            Shares {
+                reflected: table(rough_reflectance, |fresnel| fresnel),
+                transmitted: table(rough_transmittance, |fresnel| 1.0 - fresnel),
+            }
         };
         Self {
             tint: tint.clamp(Vec3::ZERO, Vec3::ONE),
@@ -46,7 +59,7 @@ impl Dielectric {
             reflects: mode != ScatterMode::Transmit,
             transmits: mode != ScatterMode::Reflect,
             smooth,
-            reflectance: [table(ior), table(1.0 / ior)],
+            shares: [shares(ior), shares(1.0 / ior)],
         }
     }
 
@@ -126,20 +139,17 @@ impl Dielectric {
         self.tint * (share / if wi.z > 0.0 { probability } else { 1.0 - probability })
     }
 
-    /// The share of energy that is reflected or transmitted; for rough facets a slight overestimate of the latter.
+    /// The share of energy that is reflected or transmitted.
     pub(crate) fn albedo(&self, wo: Vec3, inside: bool) -> Vec3 {
-        let reflected = self.reflectance[usize::from(inside)].look_up(wo);
-        let share = match (self.reflects, self.transmits) {
-            (true, true) => 1.0,
-            (true, false) => reflected,
-            (false, _) => 1.0 - reflected,
-        };
-        self.tint * share
+        let shares = &self.shares[usize::from(inside)];
+        let reflected = if self.reflects { shares.reflected.look_up(wo) } else { 0.0 };
+        let transmitted = if self.transmits { shares.transmitted.look_up(wo) } else { 0.0 };
+        self.tint * (reflected + transmitted)
     }
 
     /// The share of energy that goes on to what lies below, in MaterialX's sense: the tint doesn't count.
     pub(crate) fn throughput(&self, wo: Vec3, inside: bool) -> f32 {
-        let reflected = self.reflectance[usize::from(inside)].look_up(wo);
+        let reflected = self.shares[usize::from(inside)].reflected.look_up(wo);
         match (self.reflects, self.transmits) {
             (true, false) => 1.0 - reflected,
             (false, true) => reflected,
@@ -155,5 +165,17 @@ fn rough_reflectance(ggx: Ggx, wo: Vec3, eta: f32) -> f32 {
         let cos = wo.dot(m).clamp(0.0, 1.0);
         let wi = m * (2.0 * cos) - wo;
         if wi.z > 0.0 { fresnel_dielectric(cos, eta) * ggx.g2(wo, wi) / ggx.g1(wo) } else { 0.0 }
+    })
+}
+
+/// The mean of (1 - F) G2/G1 over visible facets.
+fn rough_transmittance(ggx: Ggx, wo: Vec3, eta: f32) -> f32 {
+    mean_over_square(|u| {
+        let m = ggx.sample_visible(wo, u);
+        let fresnel = fresnel_dielectric(wo.dot(m).clamp(0.0, 1.0), eta);
+        match refract(wo, m, eta) {
+            Some(wi) if wi.z < 0.0 => (1.0 - fresnel) * ggx.g2(wo, wi) / ggx.g1(wo),
+            _ => 0.0,
+        }
     })
 }

@@ -18,7 +18,7 @@ pub(crate) struct Lobe {
 pub(crate) enum LobeKind {
     /// The retro-reflective lobe, and its own tangent in world space if it has one.
     Retro {
-        lobe: AnyLobe<f32>,
+        lobe: Box<AnyLobe<f32>>,
         tangent_world: Option<Vec3>,
     },
     Diffuse(OrenNayar),

@@ -54,7 +54,7 @@ impl Bsdf {
     /// A BSDF of one retro-reflective lobe.
     #[must_use]
     pub fn from_lobe(lobe: AnyLobe<f32>) -> Self {
-        let kind = LobeKind::Retro { lobe, tangent_world: None };
+        let kind = LobeKind::Retro { lobe: Box::new(lobe), tangent_world: None };
         Self { lobes: vec![Lobe { weight: 1.0, kind }], root: Node::Lobe(0) }
     }
 
@@ -120,7 +120,7 @@ fn prepare(closure: &Closure, model: Model, lobes: &mut Vec<Lobe>) -> Result<Nod
             return Ok(Node::Multiply { closure: child(closure)?, factor: Vec3::from(*factor) });
         }
         Closure::RetroReflective { weight, params, tangent_u } => {
-            let lobe = AnyLobe::new(model, params)?;
+            let lobe = Box::new(AnyLobe::new(model, params)?);
             (weight, LobeKind::Retro { lobe, tangent_world: tangent_u.map(Vec3::from) })
         }
         Closure::OrenNayarDiffuse { weight, color, roughness, energy_compensation } => {

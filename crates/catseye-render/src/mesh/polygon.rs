@@ -119,8 +119,9 @@ mod tests {
 
     #[test]
     fn concave_polygons_keep_their_area() {
-        let star: Vec<_> =
-            (0..10).map(|i| [1.0, 0.4][i % 2] * Vec2::from_angle(0.2 * 3.141_592_7 * i as f32)).collect();
+        let star: Vec<_> = (0..10)
+            .map(|i| [1.0, 0.4][i % 2] * Vec2::from_angle(std::f32::consts::PI * 0.2 * i as f32))
+            .collect();
         let shoelace: f32 = (0..10).map(|i| 0.5 * star[i].perp_dot(star[(i + 1) % 10])).sum();
         let mesh = Mesh::polygon(&star);
         assert_eq!(mesh.triangles.len(), 8);

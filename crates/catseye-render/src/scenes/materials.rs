@@ -49,7 +49,7 @@ impl Finish {
 fn beaded_sheeting() -> Closure {
     let retro = Closure::RetroReflective {
         weight: 1.0,
-        params: Params::isotropic(0.02).with_tint([0.03; 3]),
+        params: Params::isotropic(0.02).with_tint([0.04; 3]),
         tangent_u: None,
     };
     Closure::Layer { top: Box::new(retro), base: Box::new(diffuse(0.35)) }

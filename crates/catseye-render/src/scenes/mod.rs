@@ -37,10 +37,10 @@ impl Scene {
         verge::add(&mut builder);
         for (side, finish) in [(-1.0, &retro), (1.0, &matte)] {
             sign::add(&mut builder, Vec3::new(2.55 * side, 0.0, -10.0), finish)?;
-            cone::add(&mut builder, Vec3::new(1.3 * side, 0.0, -8.0), finish)?;
+            cone::add(&mut builder, Vec3::new(1.05 * side, 0.0, -8.0), finish)?;
         }
         add_lights(&mut builder);
-        builder.tone_map(ToneMap { exposure_ev: -7.75, white: 4.0, glare: 0.06 });
+        builder.tone_map(ToneMap { exposure_ev: -7.85, white: 4.0, glare: 0.06 });
         builder.build()
     }
 
@@ -48,8 +48,9 @@ impl Scene {
     ///
     /// A sphere and a folded sheet of the material stand in a studio, a small matte white ball before them. A headlamp
     /// 0.2 degrees beside the camera shows what comes back (the observation angle that tables of sheeting begin with);
-    /// it is dimmed for materials that would send back more than a picture can hold. Two soft lights from the sides
-    /// and a dim surrounding show the shape and everything else.
+    /// it is dimmed for materials that would send back more than a picture can hold, and shines from behind the camera
+    /// for a perfect retro-reflector. Two soft lights from the sides and a dim surrounding show the shape and
+    /// everything else.
     ///
     /// # Errors
     /// A parameter of the material out of its range, or too many lobes in it.
@@ -61,18 +62,18 @@ impl Scene {
 fn add_lights(builder: &mut SceneBuilder) {
     for side in [-1.0, 1.0] {
         let sphere = Sphere { centre: EYE + Vec3::new(0.22 * side, -0.12, -0.05), radius: 0.05 };
-        let target = Vec3::new(0.9 * side, 0.75, -12.0);
-        let beam = Beam::new((target - sphere.centre).normalize(), [0.27, 0.14]);
+        let target = Vec3::new(1.1 * side, 0.7, -12.0);
+        let beam = Beam::new((target - sphere.centre).normalize(), [0.28, 0.19]);
         builder.light(SphereLight::headlamp(sphere, Vec3::new(1.0, 0.93, 0.80) * 9000.0, beam));
     }
     let moon = Vec3::new(0.5, 0.6, -0.55).normalize();
-    builder.light(DistantLight::new(moon, 0.0045, Vec3::new(0.50, 0.72, 1.0) * 34.0));
+    builder.light(DistantLight::new(moon, 0.0045, Vec3::new(0.50, 0.72, 1.0) * 40.0));
     builder.light(Environment::Sky(Sky {
-        zenith: Vec3::new(0.5, 1.25, 3.6),
-        horizon: Vec3::new(3.2, 5.6, 9.5),
+        zenith: Vec3::new(0.6, 1.5, 4.3),
+        horizon: Vec3::new(3.8, 6.7, 11.4),
         ground: Vec3::new(0.1, 0.12, 0.15),
         glow_direction: Vec3::new(-0.05, 0.0, -1.0).normalize(),
-        glow: Vec3::new(48.0, 23.0, 7.0),
+        glow: Vec3::new(58.0, 27.0, 8.0),
         glow_size: [0.35, 0.035],
         stars: Vec3::new(0.9, 0.95, 1.0) * 30.0,
     }));

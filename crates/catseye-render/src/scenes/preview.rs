@@ -1,6 +1,6 @@
 //! A stage for one material.
 
-use std::f32::consts::{FRAC_PI_2, TAU};
+use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
 use catseye::Model;
 use catseye_materialx::Material;
@@ -14,7 +14,7 @@ const EYE: Vec3 = Vec3::new(0.0, 2.1, 11.0);
 /// What it looks at.
 const TARGET: Vec3 = Vec3::new(0.0, 0.78, 0.0);
 /// Angle between camera and headlamp, seen from the target: the first observation angle of ASTM D4956's tables.
-const OBSERVATION_ANGLE: f32 = 0.2 * std::f32::consts::PI / 180.0;
+const OBSERVATION_ANGLE: f32 = 0.2 * PI / 180.0;
 /// Irradiance at the target by the headlamp for a material that doesn't send much of it back.
 const LAMP_IRRADIANCE: f32 = 0.8;
 /// Radiance that the lamp is dimmed to where more would come back.
@@ -23,8 +23,7 @@ const LAMP_RETURN: f32 = 0.7;
 pub(crate) fn scene(material: &Material, model: Model) -> Result<Scene, Error> {
     let mut builder = SceneBuilder::new(Camera::perspective(EYE, TARGET, Vec3::Y, 0.235));
     let bsdf = Bsdf::with_model(&material.bsdf, model)?;
-    let lamp = EYE + Vec3::X * (EYE.distance(TARGET) * OBSERVATION_ANGLE.tan());
-    let irradiance = LAMP_IRRADIANCE.min(LAMP_RETURN / returned(&bsdf, lamp).max(1e-6));
+    let headlamp = headlamp(&bsdf);
     let subject = builder.translucent_material(bsdf, material.opacity);
     let ground = builder.material(Bsdf::matte(Vec3::splat(0.16)));
     let white = builder.material(Bsdf::matte(Vec3::splat(0.8)));
@@ -33,31 +32,43 @@ pub(crate) fn scene(material: &Material, model: Model) -> Result<Scene, Error> {
     builder.mesh(folded_sheet(), subject);
     builder.sphere(Sphere { centre: Vec3::new(0.12, 0.2, 1.0), radius: 0.2 }, white);
     builder.mesh(studio(), ground);
-    add_lights(&mut builder, lamp, irradiance);
+    builder.light(headlamp);
+    add_panels(&mut builder);
+    builder.light(Environment::Constant(Vec3::new(0.03, 0.035, 0.045)));
     builder.tone_map(ToneMap { exposure_ev: 0.4, white: 4.0, glare: 0.01 });
     builder.build()
 }
 
-/// The share f cos of the lamp's irradiance that a surface 30 degrees from the line of sight sends to the camera.
-fn returned(bsdf: &Bsdf, lamp: Vec3) -> f32 {
-    let (wo, wi) = ((EYE - TARGET).normalize(), (lamp - TARGET).normalize());
+/// The lamp beside the camera, or behind it for a perfect retro-reflector, which shows nothing but the camera itself:
+/// then it shines through the pinhole, as a beam splitter would let it.
+fn headlamp(bsdf: &Bsdf) -> SphereLight {
+    let wo = (EYE - TARGET).normalize();
+    // A surface 30 degrees from the line of sight.
     let normal = Frame::from_normal(wo).to_world(Vec3::new(0.5, 0.0, 0.75_f32.sqrt()));
-    let (f_cos, _) = bsdf.at(Frame::from_normal(normal), wo, false).eval_pdf(wi);
-    f_cos.max_element()
+    let shading = bsdf.at(Frame::from_normal(normal), wo, false);
+    let perfect = |i: u32| {
+        let u = std::array::from_fn(|k| sobol_burley::sample(i, k as u32, 0));
+        shading.sample(u).is_some_and(|s| s.pdf.is_none() && s.wi.dot(wo) > 0.999)
+    };
+    if (0..64).any(perfect) {
+        return SphereLight::new(Sphere { centre: EYE + wo * 0.1, radius: 0.05 }, Vec3::splat(LAMP_RETURN));
+    }
+    let centre = EYE + Vec3::X * (EYE.distance(TARGET) * OBSERVATION_ANGLE.tan());
+    let (f_cos, _) = shading.eval_pdf((centre - TARGET).normalize());
+    let irradiance = LAMP_IRRADIANCE.min(LAMP_RETURN / f_cos.max_element().max(1e-6));
+    let intensity = irradiance * centre.distance_squared(TARGET);
+    let sphere = Sphere { centre, radius: 0.006 };
+    SphereLight::new(sphere, Vec3::splat(intensity / (PI * sphere.radius * sphere.radius)))
 }
 
-fn add_lights(builder: &mut SceneBuilder, lamp: Vec3, irradiance: f32) {
-    let sphere = Sphere { centre: lamp, radius: 0.006 };
-    let intensity = irradiance * lamp.distance_squared(TARGET);
-    let radiance = intensity / (std::f32::consts::PI * sphere.radius * sphere.radius);
-    builder.light(SphereLight::new(sphere, Vec3::splat(radiance)));
+/// Soft lights: a warm one from the left, a cool one from behind on the right.
+fn add_panels(builder: &mut SceneBuilder) {
     let mut panel = |centre: Vec3, half_size: f32, radiance: Vec3| {
         let frame = Frame::from_normal((Vec3::Y * 0.8 - centre).normalize());
         builder.light(AreaLight::rectangle(centre, frame.x * half_size, frame.y * half_size, radiance));
     };
     panel(Vec3::new(-6.0, 6.0, 3.5), 1.4, Vec3::new(1.0, 0.93, 0.84) * 7.0);
     panel(Vec3::new(5.5, 5.0, -2.5), 1.0, Vec3::new(0.6, 0.78, 1.0) * 12.0);
-    builder.light(Environment::Constant(Vec3::new(0.03, 0.035, 0.045)));
 }
 
 /// A sheet that waves like a flag: many angles between surface and camera in one piece.

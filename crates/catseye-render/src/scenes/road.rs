@@ -15,7 +15,7 @@ const MARKING: f32 = 0.003;
 
 /// Adds the road with retro-reflective furniture on its left and matte on its right.
 pub(crate) fn add(builder: &mut SceneBuilder, left: &Finish, right: &Finish) -> Result<(), Error> {
-    let asphalt = builder.material(Bsdf::matte(Vec3::new(0.12, 0.12, 0.125)));
+    let asphalt = builder.material(Bsdf::matte(Vec3::new(0.17, 0.17, 0.175)));
     builder.mesh(surface(), asphalt);
     let paint = builder.material(Bsdf::matte(Vec3::splat(0.6)));
     for i in 0..40 {

@@ -7,8 +7,8 @@ use crate::{Bsdf, Mesh, SceneBuilder};
 
 /// Adds the ground beside the road, blades of grass and a tree line.
 pub(crate) fn add(builder: &mut SceneBuilder) {
-    let soil = builder.material(Bsdf::matte(Vec3::new(0.09, 0.105, 0.05)));
-    let grass = builder.material(Bsdf::matte(Vec3::new(0.13, 0.19, 0.05)));
+    let soil = builder.material(Bsdf::matte(Vec3::new(0.11, 0.125, 0.06)));
+    let grass = builder.material(Bsdf::matte(Vec3::new(0.22, 0.31, 0.08)));
     let trees = builder.material(Bsdf::matte(Vec3::new(0.03, 0.035, 0.03)));
     for side in [-1.0, 1.0] {
         let inner = side * HALF_WIDTH;

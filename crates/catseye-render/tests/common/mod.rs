@@ -75,7 +75,7 @@ pub(crate) fn zoo() -> Vec<(&'static str, Closure)> {
 
 pub(crate) fn picture(scene: &Scene, [width, height]: [usize; 2], spp: u32, max_depth: u32) -> Image {
     let settings = RenderSettings { width, height, spp, max_depth, ..RenderSettings::default() };
-    render(scene, &settings, &|_| ()).unwrap()
+    render(scene, &settings, &|_| ()).expect("the settings are legal")
 }
 
 /// Well spread points of the unit hypercube (Roberts' additive recurrence).
