@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use catseye::{Model, ParamError, Params, Vec3};
 use plotters::prelude::{DrawingBackend, RGBColor};
 
-use super::axes::Axes;
+use super::axes::{Axes, unbounded};
 use crate::canvas::{Canvas, GRID, INK, Lettering, MUTED};
 use crate::figure::Figure;
 
@@ -82,7 +82,11 @@ impl Figure for AlbedoFigure {
         DB::ErrorType: 'static,
     {
         let title = format!("Share of the light that single scattering sends back: {}", self.model.name());
-        let subtitle = "without compensation (multiscatter_tint = 0) and with tint = 1, equal roughness in both directions";
+        let subtitle = match self.model {
+            Model::Reciprocal => "multiscatter_tint 0, tint 1, equal roughness in both directions",
+            Model::Edwards => "tint 1, equal roughness in both directions",
+            Model::BackVector => "tint 1, equal roughness in both directions; roughness is GGX's alpha",
+        };
         canvas.text(&title, (24.0, 32.0), Lettering::left(22.0, INK))?;
         canvas.text(subtitle, (24.0, 60.0), Lettering::left(15.0, MUTED))?;
         let frame = Axes { origin: (64.0, 122.0), size: (740.0, 440.0), x: 0.0..=90.0, y: 0.0..=1.0 };
@@ -108,25 +112,24 @@ impl AlbedoFigure {
             .iter()
             .filter_map(|curve| Some((curve, frame.place(*curve.values.last()?))))
             .collect();
-        ends.sort_by(|(_, a), (_, b)| a.1.total_cmp(&b.1));
-        let heights = spread(&ends.iter().map(|(_, end)| end.1).collect::<Vec<_>>(), LABEL_STEP);
+        // Whole pixels: curves that end in one point stay in the order of their roughness.
+        ends.sort_by(|(_, a), (_, b)| a.1.round().total_cmp(&b.1.round()));
+        let heights =
+            spread(&ends.iter().map(|(_, end)| end.1).collect::<Vec<_>>(), LABEL_STEP, frame.origin.1);
         let right = frame.origin.0 + frame.size.0;
         canvas.text("roughness", (right + 34.0, frame.origin.1 - 22.0), Lettering::left(15.0, INK))?;
         for ((curve, end), y) in ends.into_iter().zip(heights) {
             canvas.line(&[end, (right + 28.0, y)], GRID, 1.0)?;
-            let label = if curve.roughness.is_infinite() {
-                "\u{221e}".to_owned()
-            } else {
-                curve.roughness.to_string()
-            };
+            let label = unbounded(curve.roughness);
             canvas.text(&label, (right + 34.0, y), Lettering::left(15.0, curve.color))?;
         }
         Ok(())
     }
 }
 
-/// Ascending positions at least `step` apart, as near to the given ones as a sweep in each direction gets them.
-fn spread(positions: &[f64], step: f64) -> Vec<f64> {
+/// Ascending positions at least `step` apart and not below `least`, as near to the given ones as a sweep in each
+/// direction gets them.
+fn spread(positions: &[f64], step: f64, least: f64) -> Vec<f64> {
     let mut down: Vec<f64> = Vec::with_capacity(positions.len());
     for &position in positions {
         down.push(down.last().map_or(position, |last| position.max(last + step)));
@@ -135,5 +138,6 @@ fn spread(positions: &[f64], step: f64) -> Vec<f64> {
     for &position in positions.iter().rev() {
         up.push(up.last().map_or(position, |last| position.min(last - step)));
     }
-    down.iter().zip(up.iter().rev()).map(|(a, b)| 0.5 * (a + b)).collect()
+    let mean = down.iter().zip(up.iter().rev()).map(|(a, b)| 0.5 * (a + b));
+    mean.enumerate().map(|(i, position)| position.max(least + step * i as f64)).collect()
 }

@@ -63,6 +63,11 @@ pub(crate) fn signed(value: f64) -> String {
     rounded.to_string().replace('-', "\u{2212}")
 }
 
+/// A number that may be infinite.
+pub(crate) fn unbounded(value: f64) -> String {
+    if value.is_infinite() { "\u{221e}".to_owned() } else { value.to_string() }
+}
+
 /// Multiples of 1, 2 or 5 times a power of ten up to `greatest`, about `count` of them, without 0.
 pub(crate) fn ticks(greatest: f64, count: f64) -> Vec<f64> {
     let power = 10.0_f64.powf((greatest / count).log10().floor());

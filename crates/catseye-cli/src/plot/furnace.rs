@@ -33,6 +33,8 @@ pub(crate) struct FurnaceFigure {
     pub(crate) roughness_v: Option<f64>,
     /// Side of a tile in pixels.
     pub(crate) side: usize,
+    /// Tiles in a row.
+    pub(crate) columns: usize,
     pub(crate) tiles: Vec<Tile>,
 }
 
@@ -51,13 +53,9 @@ impl FurnaceFigure {
         figure::png(self.size(), &rgb)
     }
 
-    fn columns(&self) -> usize {
-        self.tiles.len().div_ceil(Scattering::ALL.len())
-    }
-
     /// The upper left corner of a tile.
     fn corner(&self, tile: usize) -> Point {
-        let (column, row) = (tile % self.columns(), tile / self.columns());
+        let (column, row) = (tile % self.columns, tile / self.columns);
         let side = self.side as f64;
         (MARGIN + LABELS + (side + GAP) * column as f64, TOP + (side + NUMBERS) * row as f64)
     }
@@ -71,7 +69,7 @@ impl FurnaceFigure {
 
 impl Figure for FurnaceFigure {
     fn size(&self) -> (u32, u32) {
-        let (right, _) = self.corner(self.columns() - 1);
+        let (right, _) = self.corner(self.columns - 1);
         let (_, bottom) = self.corner(self.tiles.len() - 1);
         let side = self.side as f64;
         ((right + side + MARGIN) as u32, (bottom + side + NUMBERS + CAPTION) as u32)
@@ -87,10 +85,11 @@ impl Figure for FurnaceFigure {
         canvas.text(subtitle, (MARGIN, 62.0), Lettering::left(15.0, MUTED))?;
         canvas.text("roughness", (MARGIN, TOP - 20.0), Lettering::left(15.0, INK))?;
         for (i, tile) in self.tiles.iter().enumerate() {
-            self.draw_tile(canvas, tile, self.corner(i), i < self.columns())?;
+            self.draw_tile(canvas, tile, self.corner(i), i < self.columns)?;
         }
-        for (row, scattering) in Scattering::ALL.into_iter().enumerate() {
-            self.draw_label(canvas, scattering, self.corner(row * self.columns()).1)?;
+        let rows = self.tiles.len().div_ceil(self.columns);
+        for (row, scattering) in Scattering::ALL.into_iter().take(rows).enumerate() {
+            self.draw_label(canvas, scattering, self.corner(row * self.columns).1)?;
         }
         let caption =
             "Numbers: mean albedo of the whole sphere, measured by sampling the lobe, and the exact value.";

@@ -1,31 +1,41 @@
 //! The lobes' shape: f cos in the plane of incidence.
 
+use std::ops::RangeInclusive;
+
 use anyhow::bail;
-use catseye::{AnyLobe, Lobe as _, Model, ParamError, Params, Vec3, width};
+use catseye::{AnyLobe, DIRAC_ROUGHNESS, Lobe as _, Model, ParamError, Params, Vec3, width};
 use plotters::prelude::{DrawingBackend, RGBColor};
 
-use super::axes::{Axes as Frame, ticks};
+use super::axes::{Axes as Frame, ticks, unbounded};
 use super::polar;
 use crate::canvas::{Canvas, INK, Lettering, MUTED};
 use crate::figure::Figure;
 
 /// Steps of a curve between the horizons.
 const STEPS: i32 = 1440;
-/// Steps within [`PEAK`] half widths of the retro direction, where a narrow lobe lives.
-const PEAK_STEPS: i32 = 300;
-/// See [`PEAK_STEPS`].
-const PEAK: f64 = 6.0;
+/// Steps from the retro direction to either end of the lobe's reach.
+const REACH_STEPS: i32 = 400;
+/// A lobe's reach in units of its width: at 8 the value has fallen to exp(-16) of its peak.
+const REACH: f64 = 8.0;
+/// Degrees of reach below which a diagram over the angle shows the lobe's surroundings only.
+const ZOOM: f64 = 60.0;
+/// Degrees of reach below which a polar diagram is a needle.
+const NEEDLE: f64 = 12.0;
+
+/// The diagram's greatest value in 1/sr where there is nothing to see.
+const LEAST_SCALE: f64 = 1e-6;
 
 const PANEL_WIDTH: f64 = 430.0;
+/// What title and legend need.
+const LEAST_WIDTH: f64 = 1060.0;
 const MARGIN: f64 = 24.0;
 const TOP: f64 = 84.0;
 const BOTTOM: f64 = 72.0;
 
 /// The shape of the diagram.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 pub(crate) enum Axes {
     /// The distance from the centre is the value.
-    #[default]
     Polar,
     /// The value over the angle.
     Cartesian,
@@ -38,7 +48,24 @@ pub(crate) struct Request {
     pub(crate) theta_deg: Vec<f64>,
     pub(crate) phi_deg: f64,
     pub(crate) models: Vec<Model>,
-    pub(crate) axes: Axes,
+    /// The shape of the diagram; `None` chooses by the lobe's width.
+    pub(crate) axes: Option<Axes>,
+}
+
+impl Request {
+    /// The angle from the retro direction, in degrees, within which all but nothing of the lobe lies.
+    fn reach_deg(&self) -> f64 {
+        // The lobe itself is no narrower either.
+        let [m_u, m_v] = self.roughness.map(|roughness| width(roughness.max(DIRAC_ROUGHNESS)));
+        let (sin, cos) = self.phi_deg.to_radians().sin_cos();
+        let in_plane = 1.0 / (cos / m_u).hypot(sin / m_v);
+        REACH * in_plane.to_degrees()
+    }
+
+    fn axes(&self) -> Axes {
+        let suitable = if self.reach_deg() < NEEDLE { Axes::Cartesian } else { Axes::Polar };
+        self.axes.unwrap_or(suitable)
+    }
 }
 
 /// The computed curves.
@@ -101,12 +128,12 @@ impl LobeFigure {
         let panels: Vec<_> =
             request.theta_deg.iter().map(|&theta_deg| panel(&request, &lobes, theta_deg)).collect();
         let values = panels.iter().flat_map(|panel| &panel.curves).flat_map(|curve| &curve.values);
-        let greatest = values.map(|&(_, value)| value).fold(f64::MIN_POSITIVE, f64::max);
+        let greatest = values.map(|&(_, value)| value).fold(LEAST_SCALE, f64::max);
         Ok(Self { request, panels, greatest })
     }
 
     fn title(&self) -> String {
-        let [u, v] = self.request.roughness;
+        let [u, v] = self.request.roughness.map(unbounded);
         let across = if u == v { String::new() } else { format!(" along and {v} across the tangent") };
         let plane = match self.request.phi_deg {
             0.0 => String::new(),
@@ -125,10 +152,9 @@ fn prepare(model: Model, roughness: [f64; 2]) -> Result<AnyLobe<f64>, ParamError
 }
 
 fn panel(request: &Request, lobes: &[(Model, AnyLobe<f64>)], theta_deg: f64) -> Panel {
-    let [u, v] = request.roughness;
     let phi = request.phi_deg.to_radians();
     let wo = Vec3::from_angles(theta_deg.to_radians(), phi);
-    let angles = angles(theta_deg, width(u.min(v)).to_degrees());
+    let angles = angles(theta_deg, request.reach_deg());
     let curve = |&(model, lobe): &(Model, AnyLobe<f64>)| {
         let value = |&angle: &f64| {
             let wi = Vec3::from_angles(angle.to_radians(), phi);
@@ -141,19 +167,20 @@ fn panel(request: &Request, lobes: &[(Model, AnyLobe<f64>)], theta_deg: f64) -> 
 }
 
 /// Angles of a curve in degrees: everywhere, and closer around the retro direction.
-fn angles(theta_deg: f64, width_deg: f64) -> Vec<f64> {
-    let even = (0..=STEPS).map(|i| 180.0 * f64::from(i) / f64::from(STEPS) - 90.0);
-    let near = (-PEAK_STEPS..=PEAK_STEPS)
-        .map(|i| theta_deg + PEAK * width_deg * f64::from(i) / f64::from(PEAK_STEPS));
-    let mut all: Vec<f64> = even.chain(near.filter(|angle| angle.abs() <= 90.0)).collect();
+fn angles(theta_deg: f64, reach_deg: f64) -> Vec<f64> {
+    // The horizons themselves belong to neither side.
+    let even = (1..STEPS).map(|i| 180.0 * f64::from(i) / f64::from(STEPS) - 90.0);
+    let near =
+        (-REACH_STEPS..=REACH_STEPS).map(|i| theta_deg + reach_deg * f64::from(i) / f64::from(REACH_STEPS));
+    let mut all: Vec<f64> = even.chain(near.filter(|angle| angle.abs() < 90.0)).collect();
     all.sort_by(f64::total_cmp);
     all
 }
 
 impl Figure for LobeFigure {
     fn size(&self) -> (u32, u32) {
-        let panels = self.panels.len().max(2) as f64;
-        ((2.0 * MARGIN + panels * PANEL_WIDTH) as u32, (TOP + polar::HEIGHT + BOTTOM) as u32)
+        let width = (2.0 * MARGIN + self.panels.len() as f64 * PANEL_WIDTH).max(LEAST_WIDTH);
+        (width as u32, (TOP + polar::HEIGHT + BOTTOM) as u32)
     }
 
     fn draw<DB: DrawingBackend>(&self, canvas: &Canvas<'_, DB>) -> anyhow::Result<()>
@@ -165,8 +192,9 @@ impl Figure for LobeFigure {
         canvas.text(&self.title(), (MARGIN, 32.0), Lettering::left(24.0, INK))?;
         canvas.text(subtitle, (MARGIN, 62.0), Lettering::left(15.0, MUTED))?;
         for (i, panel) in self.panels.iter().enumerate() {
-            let left = MARGIN + PANEL_WIDTH * i as f64;
-            match self.request.axes {
+            let indent = 0.5 * (f64::from(self.size().0) - PANEL_WIDTH * self.panels.len() as f64);
+            let left = indent + PANEL_WIDTH * i as f64;
+            match self.request.axes() {
                 Axes::Polar => polar::draw(canvas, panel, left + PANEL_WIDTH / 2.0, TOP, self.greatest)?,
                 Axes::Cartesian => self.draw_cartesian(canvas, panel, left)?,
             }
@@ -186,26 +214,39 @@ impl LobeFigure {
         DB::ErrorType: 'static,
     {
         let top = self.greatest * 1.05;
+        let (x, x_ticks) = self.angle_range(panel.theta_deg);
         let frame = Frame {
-            origin: (left + 44.0, TOP + 40.0),
-            size: (PANEL_WIDTH - 64.0, polar::HEIGHT - 96.0),
-            x: -90.0..=90.0,
+            origin: (left + 52.0, TOP + 40.0),
+            size: (PANEL_WIDTH - 72.0, polar::HEIGHT - 96.0),
+            x: x.clone(),
             y: 0.0..=top,
         };
-        let mut values = ticks(top, 5.0);
-        values.insert(0, 0.0);
+        let mut y_ticks = ticks(top, 5.0);
+        y_ticks.insert(0, 0.0);
         let title = format!("light at {}°", panel.theta_deg);
-        frame.draw(
-            canvas,
-            [&[-90.0, -60.0, -30.0, 0.0, 30.0, 60.0, 90.0], &values],
-            ["outgoing angle", &title],
-        )?;
+        frame.draw(canvas, [&x_ticks, &y_ticks], ["outgoing angle", &title])?;
         for curve in &panel.curves {
             let (color, width) = curve.style();
-            let points: Vec<_> = curve.values.iter().map(|&value| frame.place(value)).collect();
+            let shown = curve.values.iter().filter(|(angle, _)| x.contains(angle));
+            let points: Vec<_> = shown.map(|&value| frame.place(value)).collect();
             canvas.line(&points, color, width)?;
         }
         Ok(())
+    }
+
+    /// The angles that a diagram shows, and those that it names.
+    fn angle_range(&self, theta_deg: f64) -> (RangeInclusive<f64>, Vec<f64>) {
+        let reach = self.request.reach_deg();
+        if reach >= ZOOM {
+            return (-90.0..=90.0, (-3..=3).map(|i| 30.0 * f64::from(i)).collect());
+        }
+        // Not beyond the horizon, but as wide as the other panels.
+        let center = theta_deg.min(90.0 - reach);
+        let range = center - reach..=center + reach;
+        let step = ticks(reach, 2.0)[0];
+        let all = (-8..=8).map(|i| theta_deg + step * f64::from(i));
+        let named = all.filter(|angle| range.contains(angle)).collect();
+        (range, named)
     }
 
     fn draw_legend<DB: DrawingBackend>(&self, canvas: &Canvas<'_, DB>) -> anyhow::Result<()>

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use anyhow::bail;
-use catseye::{AnyLobe, Lobe as _, Params, Vec3};
+use catseye::{AnyLobe, Lobe as _, Model, Params, Vec3};
 use catseye_render::{Image, encode_srgb, furnace};
 use rayon::prelude::*;
 use serde_json::{Value, json};
@@ -28,7 +28,7 @@ const TILE: usize = 116;
 /// Spheres in a white environment of radiance 1: one that loses no energy can't be seen. The upper row shows single
 /// scattering (`multiscatter_tint` 0), the lower one multiple scattering (`multiscatter_tint` 1). The numbers are the share of
 /// light that comes back at normal incidence and from the whole sphere, measured by sampling the lobe; beside each stands
-/// the exact value.
+/// the exact value. The models without compensation have the upper row only.
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::FURNACE)]
 pub(crate) struct Args {
@@ -100,9 +100,12 @@ impl Args {
     }
 
     fn measure(&self) -> anyhow::Result<Vec<Cell>> {
-        let progress = Progress::new("spheres", 2 * ROUGHNESSES.len() as u64);
+        // The other models have no compensation: their second row would be the first again.
+        let rows =
+            if self.model.0 == Model::Reciprocal { &Scattering::ALL[..] } else { &[Scattering::Single] };
+        let progress = Progress::new("spheres", (rows.len() * ROUGHNESSES.len()) as u64);
         let mut cells = Vec::new();
-        for scattering in Scattering::ALL {
+        for &scattering in rows {
             for roughness in ROUGHNESSES {
                 cells.push(self.cell(roughness, scattering)?);
                 progress.set(cells.len() as u64);
@@ -145,6 +148,7 @@ impl Args {
             model: self.model.0,
             roughness_v: self.roughness_v,
             side: TILE,
+            columns: ROUGHNESSES.len(),
             tiles: cells.iter().map(tile).collect(),
         }
     }
@@ -210,13 +214,13 @@ fn rows(cells: &[Cell]) -> Vec<Value> {
 fn table(cells: &[Cell]) -> String {
     let mut text = String::new();
     let mut worst: f64 = 0.0;
-    for scattering in Scattering::ALL {
+    for row in cells.chunk_by(|a, b| a.scattering == b.scattering) {
         // Writing to a string can't fail.
-        let name = scattering.name();
+        let name = row[0].scattering.name();
         writeln!(text, "{name} scattering").ok();
         writeln!(text, "                 normal incidence      whole sphere").ok();
         writeln!(text, "     roughness   measured  expected    measured  expected").ok();
-        for cell in cells.iter().filter(|cell| cell.scattering == scattering) {
+        for cell in row {
             let [u, v] = cell.params.roughness();
             let roughness = if u == v { u.to_string() } else { format!("{u}, {v}") };
             let Cell { normal, sphere, .. } = cell;

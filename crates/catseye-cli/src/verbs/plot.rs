@@ -58,9 +58,9 @@ struct LobeArgs {
     /// Show only this model [default: all]
     #[arg(long, value_enum)]
     model: Option<ModelArg>,
-    /// Shape of the diagram
-    #[arg(long, value_enum, default_value_t)]
-    axes: lobe::Axes,
+    /// Shape of the diagram [default: polar, for narrow lobes cartesian]
+    #[arg(long, value_enum)]
+    axes: Option<lobe::Axes>,
     /// Print what was written as JSON
     #[arg(long)]
     json: bool,
