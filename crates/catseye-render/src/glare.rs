@@ -4,6 +4,8 @@ use crate::Image;
 
 /// Widths of the halo's Gaussians relative to the picture's height, and their shares.
 const HALO: [(f32, f32); 3] = [(0.0035, 0.5), (0.012, 0.3), (0.045, 0.2)];
+/// Boxes that make a Gaussian.
+const BOXES: usize = 3;
 
 impl Image {
     /// The picture as a lens or an eye that scatters `share` of the light sees it: each point loses that share to a
@@ -25,32 +27,50 @@ impl Image {
         })
     }
 
-    /// The picture convolved with a Gaussian of the given standard deviation in pixels; black lies around it.
+    /// The picture convolved with about a Gaussian of the given standard deviation in pixels; black lies around it.
+    ///
+    /// Three boxes one after another (Wells, "Efficient Synthesis of Gaussian Filters by Cascaded Uniform Filters",
+    /// PAMI 8(2), 1986) along the rows, then along the columns: the time doesn't depend on the width.
     fn blurred(&self, sigma: f32) -> Self {
-        let radius = (3.0 * sigma).ceil() as usize;
-        let weight = |i: usize| (-0.5 * (i as f32 - radius as f32).powi(2) / (sigma * sigma).max(1e-6)).exp();
-        let kernel: Vec<f32> = (0..=2 * radius).map(weight).collect();
-        let total: f32 = kernel.iter().sum();
-        let kernel: Vec<f32> = kernel.iter().map(|k| k / total).collect();
-        // Twice along the rows, turned in between.
-        self.convolved_and_turned(&kernel).convolved_and_turned(&kernel)
+        // A box of 2 r + 1 pixels has the variance r (r + 1) / 3.
+        let radius = (0.5 * ((4.0 * sigma * sigma + 1.0).sqrt() - 1.0)).round().max(1.0) as usize;
+        let rows = (0..BOXES).fold(self.clone(), |image, _| image.box_filtered(radius));
+        (0..BOXES).fold(rows.turned(), |image, _| image.box_filtered(radius)).turned()
     }
 
-    /// Rows convolved with a kernel of odd length; rows become columns.
-    fn convolved_and_turned(&self, kernel: &[f32]) -> Self {
-        let radius = kernel.len() / 2;
-        Self::from_fn(self.height(), self.width(), |y, x| {
-            let first = x.saturating_sub(radius);
-            let last = (x + radius).min(self.width() - 1);
-            let mut sum = [0.0; 3];
-            for column in first..=last {
-                let k = kernel[column + radius - x];
-                for (sum, value) in sum.iter_mut().zip(self.pixel(column, y)) {
-                    *sum += k * value;
+    /// Each pixel becomes the mean of those up to `radius` beside it in its row.
+    fn box_filtered(&self, radius: usize) -> Self {
+        let scale = 1.0 / (2 * radius + 1) as f64;
+        let mut filtered = Self::new(self.width(), self.height());
+        for y in 0..self.height() {
+            let mut sum = [0.0_f64; 3];
+            let mut add = |x: usize, sign: f64| {
+                for (sum, value) in sum.iter_mut().zip(self.pixel(x, y)) {
+                    *sum += sign * f64::from(value);
                 }
+                sum
+            };
+            for x in 0..radius.min(self.width()) {
+                add(x, 1.0);
             }
-            sum
-        })
+            for x in 0..self.width() {
+                if x + radius < self.width() {
+                    add(x + radius, 1.0);
+                }
+                if x > radius {
+                    add(x - radius - 1, -1.0);
+                }
+                // What is left of bright pixels that went out is rounding.
+                let mean = add(x, 0.0).map(|s| (s * scale).max(0.0) as f32);
+                filtered.set_pixel(x, y, mean);
+            }
+        }
+        filtered
+    }
+
+    /// Rows become columns.
+    fn turned(&self) -> Self {
+        Self::from_fn(self.height(), self.width(), |y, x| self.pixel(x, y))
     }
 }
 

@@ -10,7 +10,7 @@ use crate::{Error, Filter, Image, Scene, integrator};
 
 /// Side of the squares of pixels that threads work on.
 const TILE: usize = 16;
-/// The largest picture: 2 GiB of pixels at 12 bytes would be 13,000 x 13,000.
+/// The longest side of a picture: a square of it is 3 GiB of pixels.
 const MAX_SIZE: usize = 1 << 14;
 
 /// How a picture is taken.

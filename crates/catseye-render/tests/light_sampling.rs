@@ -110,3 +110,27 @@ fn paths_of_several_scatterings_choose_lights_without_bias() {
     let direct = 4.02 / (radius * radius) * albedo / PI;
     assert_near(image.mean()[0], direct / (1.0 - albedo), 0.01);
 }
+
+#[test]
+fn a_half_opaque_screen_halves_the_light_and_the_view() {
+    let camera = Camera::orthographic(Vec3::new(0.0, 3.0, 0.0), Vec3::ZERO, Vec3::Z, 1e-3);
+    let mut builder = SceneBuilder::new(camera);
+    let white = builder.material(Bsdf::matte(Vec3::ONE));
+    let black = builder.translucent_material(Bsdf::matte(Vec3::ZERO), 0.5);
+    builder.mesh(Mesh::quad(Vec3::new(-5.0, 0.0, 5.0), Vec3::X * 10.0, Vec3::NEG_Z * 10.0), white);
+    builder.mesh(Mesh::quad(Vec3::new(-5.0, 1.0, 5.0), Vec3::X * 10.0, Vec3::NEG_Z * 10.0), black);
+    builder.light(PointLight { position: Vec3::Y * 2.0, intensity: Vec3::splat(4.0 * PI) });
+    let image = picture(&builder.build().expect("a legal scene"), SMALL, 1024, 1);
+    assert_near(image.mean()[0], 0.25, 0.02);
+}
+
+#[test]
+fn a_mesh_that_refers_beyond_its_vertices_is_an_error() {
+    let mut builder = SceneBuilder::new(Camera::orthographic(Vec3::Y, Vec3::ZERO, Vec3::Z, 1.0));
+    let white = builder.material(Bsdf::matte(Vec3::ONE));
+    let mut mesh = Mesh::quad(Vec3::ZERO, Vec3::X, Vec3::Z);
+    mesh.triangles.push([0, 1, 4]);
+    builder.mesh(mesh, white);
+    let error = builder.build().unwrap_err().to_string();
+    assert!(error.contains("triangle 2") && error.contains("of 4"), "{error}");
+}
