@@ -60,10 +60,13 @@ Table format:
     wo_x, wo_y, wo_z                 direction towards the viewer
     wi_x, wi_y, wi_z                 direction towards the light (eval)
     u1, u2, u3                       uniform numbers in [0, 1) (sample)
-  Directions are unit vectors (within 0.001) that point away from the surface; z is the shading normal, x the tangent.
-  An empty cell is a missing one. Other columns are carried through; one with the name of an added column is
-  replaced. Numbers are printed with the digits that give the same value back. A bad row is an error that names
-  line and column, and then there is no output at all.";
+  - Directions are unit vectors (within 0.001) that point away from the
+    surface; z is the shading normal, x the tangent.
+  - An empty cell is a missing one.
+  - Other columns are carried through; one that has the name of an added
+    column is replaced.
+  - Numbers are printed with the digits that give the same value back.
+  - A bad row is an error that names line and column; nothing is printed then.";
 
 /// An example after the format of the tables.
 pub(crate) fn table(example: &str) -> String {
