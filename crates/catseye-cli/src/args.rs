@@ -8,6 +8,7 @@ use crate::verbs::{albedo, eval, furnace, plot, render, sample};
 /// The retro-reflective BSDF: evaluate it, sample it, plot it, render with it.
 #[derive(Debug, Parser)]
 #[command(
+    name = "catseye",
     version,
     arg_required_else_help = true,
     after_help = "Exit codes: 0 done, 1 failed, 2 used wrongly.\n\

@@ -33,9 +33,8 @@ impl PointArgs {
         argument: Option<(&str, [&str; 3], Option<&str>)>,
         has_file: bool,
     ) -> anyhow::Result<Option<Input>> {
-        let [roughness @ .., _, _, _, _, _, _] = &PARAMS;
         let mut options: Vec<(&str, &[&str], Option<&str>)> = vec![
-            ("roughness", roughness, self.roughness.as_deref()),
+            ("roughness", &PARAMS[..2], self.roughness.as_deref()),
             ("wo", &WO, self.wo.as_deref()),
             ("tint", &PARAMS[2..5], self.tint.as_deref()),
             ("multiscatter-tint", &PARAMS[5..], self.multiscatter_tint.as_deref()),

@@ -16,6 +16,7 @@ fn every_verb_has_help_with_an_example() {
             );
         }
     }
+    assert!(output("--version", "").starts_with("catseye "));
     assert!(output("--help", "").contains("Exit codes: 0 done, 1 failed, 2 used wrongly"));
 }
 
