@@ -108,7 +108,7 @@ impl Path<'_> {
             None => 1.0,
             Some(pdf) => power_heuristic(pdf, light_pdf * self.light_probability(light)),
         };
-        self.radiance += self.throughput * radiance * weight;
+        self.add(self.throughput * radiance * weight, self.depth.saturating_sub(1));
     }
 
     /// The probability with which the last scattering sampled a light. The first one samples them all.
@@ -161,7 +161,15 @@ impl Path<'_> {
             return;
         }
         let weight = sample.pdf.map_or(1.0, |light_pdf| power_heuristic(light_pdf * probability, pdf));
-        self.radiance += self.throughput * f_cos * sample.radiance_over_pdf * (passed * weight / probability);
+        let share = passed * weight / probability;
+        self.add(self.throughput * f_cos * sample.radiance_over_pdf * share, self.depth);
+    }
+
+    /// Adds light that took `bounces` scatterings more than direct light does; only then it is limited.
+    fn add(&mut self, radiance: Vec3, bounces: u32) {
+        let peak = radiance.max_element();
+        let limit = if bounces == 0 { f32::INFINITY } else { self.scene.indirect_limit() };
+        self.radiance += if peak > limit { radiance * (limit / peak) } else { radiance };
     }
 
     /// Chooses the next direction; false if the path ends here.

@@ -33,12 +33,12 @@ pub struct RenderSettings {
 }
 
 impl Default for RenderSettings {
-    /// 960 x 540, 24 samples, 6 scatterings: the size that the built-in scene is made for.
+    /// 960 x 540, 16 samples, 6 scatterings: the size that the built-in scene is made for.
     fn default() -> Self {
         Self {
             width: 960,
             height: 540,
-            spp: 24,
+            spp: 16,
             max_depth: 6,
             seed: 0,
             threads: None,

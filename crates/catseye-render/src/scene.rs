@@ -11,6 +11,7 @@ use crate::{Bsdf, Camera, Error, Light, Mesh, Ray, Sphere, ToneMap};
 pub struct Scene {
     camera: Camera,
     tone_map: ToneMap,
+    indirect_limit: f32,
     accel: Accel,
     attributes: Vec<Attributes>,
     surfaces: Vec<Surface>,
@@ -34,6 +35,7 @@ pub struct MaterialId(u32);
 pub struct SceneBuilder {
     camera: Camera,
     tone_map: ToneMap,
+    indirect_limit: f32,
     surfaces: Vec<Surface>,
     meshes: Vec<(Mesh, MaterialId)>,
     spheres: Vec<(Sphere, MaterialId)>,
@@ -47,6 +49,7 @@ impl SceneBuilder {
         Self {
             camera,
             tone_map: ToneMap::default(),
+            indirect_limit: f32::INFINITY,
             surfaces: Vec::new(),
             meshes: Vec::new(),
             spheres: Vec::new(),
@@ -102,6 +105,13 @@ impl SceneBuilder {
         self
     }
 
+    /// Limits what a single path may bring of indirect light: specks that small lamps and smooth surfaces make in each
+    /// other vanish, and so do the caustics that they would have become. Without it pictures are unbiased.
+    pub fn indirect_limit(&mut self, radiance: f32) -> &mut Self {
+        self.indirect_limit = radiance;
+        self
+    }
+
     /// Checks the meshes and builds the acceleration structure.
     ///
     /// # Errors
@@ -130,6 +140,7 @@ impl SceneBuilder {
         Ok(Scene {
             camera: self.camera,
             tone_map: self.tone_map,
+            indirect_limit: self.indirect_limit,
             accel,
             attributes: order.iter().map(|&i| attributes[i as usize]).collect(),
             opaque: self.surfaces.iter().all(|s| s.opacity >= 1.0),
@@ -150,6 +161,11 @@ impl Scene {
     #[must_use]
     pub fn tone_map(&self) -> &ToneMap {
         &self.tone_map
+    }
+
+    /// The most that a single path may bring of indirect light.
+    pub(crate) fn indirect_limit(&self) -> f32 {
+        self.indirect_limit
     }
 
     /// The lights.

@@ -20,6 +20,10 @@ const LAMP_IRRADIANCE: f32 = 0.8;
 /// Radiance that the lamp is dimmed to where more would come back.
 const LAMP_RETURN: f32 = 0.7;
 
+/// Radiance that a path may bring of indirect light, about that of the white ball: the lamp is tiny and would make
+/// specks.
+const INDIRECT_LIMIT: f32 = 0.6;
+
 pub(crate) fn scene(material: &Material, model: Model) -> Result<Scene, Error> {
     let mut builder = SceneBuilder::new(Camera::perspective(EYE, TARGET, Vec3::Y, 0.235));
     let bsdf = Bsdf::with_model(&material.bsdf, model)?;
@@ -35,6 +39,7 @@ pub(crate) fn scene(material: &Material, model: Model) -> Result<Scene, Error> {
     builder.light(headlamp);
     add_panels(&mut builder);
     builder.light(Environment::Constant(Vec3::new(0.03, 0.035, 0.045)));
+    builder.indirect_limit(INDIRECT_LIMIT);
     builder.tone_map(ToneMap { exposure_ev: 0.4, white: 4.0, glare: 0.01 });
     builder.build()
 }
