@@ -19,7 +19,7 @@ use std::sync::OnceLock;
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use crate::{Lobe, LobeKind, Real, Vec3};
+use crate::{Lobe, LobeKind, LobeVisitor, Real, Vec3};
 
 /// Components of vectors or colours, each a slice over the batch.
 pub type Slices<'a, T> = [&'a [T]; 3];
@@ -61,12 +61,18 @@ fn common_length<const N: usize>(lengths: [usize; N]) -> usize {
     lengths[0]
 }
 
+/// The direction at index k.
+#[inline(always)]
+fn vector<T: Real>([x, y, z]: Slices<'_, T>, k: usize) -> Vec3<T> {
+    Vec3::new(x[k], y[k], z[k])
+}
+
 /// [`Lobe::eval`] of every pair of directions.
 ///
 /// # Panics
 /// If the slices differ in length.
 pub fn eval<T: Real, L: Lobe<T> + Copy>(lobe: &L, wo: Slices<'_, T>, wi: Slices<'_, T>, f: SlicesMut<'_, T>) {
-    dispatch!(level(), simd => eval_loop(simd, *lobe, wo, wi, f));
+    dispatch!(level(), simd => lobe.specialize(Eval(simd, wo, wi, f)));
 }
 
 /// [`Lobe::pdf`] of every pair of directions.
@@ -74,7 +80,7 @@ pub fn eval<T: Real, L: Lobe<T> + Copy>(lobe: &L, wo: Slices<'_, T>, wi: Slices<
 /// # Panics
 /// If the slices differ in length.
 pub fn pdf<T: Real, L: Lobe<T> + Copy>(lobe: &L, wo: Slices<'_, T>, wi: Slices<'_, T>, pdf: &mut [T]) {
-    dispatch!(level(), simd => pdf_loop(simd, *lobe, wo, wi, pdf));
+    dispatch!(level(), simd => lobe.specialize(Pdf(simd, wo, wi, pdf)));
 }
 
 /// [`Lobe::eval_pdf`] of every pair of directions.
@@ -88,7 +94,7 @@ pub fn eval_pdf<T: Real, L: Lobe<T> + Copy>(
     f: SlicesMut<'_, T>,
     pdf: &mut [T],
 ) {
-    dispatch!(level(), simd => eval_pdf_loop(simd, *lobe, wo, wi, f, pdf));
+    dispatch!(level(), simd => lobe.specialize(EvalPdf(simd, wo, wi, f, pdf)));
 }
 
 /// [`Lobe::sample`] of every direction, with the uniform numbers `u` in `[0, 1)`.
@@ -101,76 +107,82 @@ pub fn sample<T: Real, L: Lobe<T> + Copy>(
     u: Slices<'_, T>,
     out: SampleSlices<'_, T>,
 ) {
-    dispatch!(level(), simd => sample_loop(simd, *lobe, wo, u, out));
+    dispatch!(level(), simd => lobe.specialize(Draw(simd, wo, u, out)));
 }
 
-#[inline(always)]
-fn eval_loop<S: Simd, T: Real, L: Lobe<T>>(
-    _: S,
-    lobe: L,
-    [ox, oy, oz]: Slices<'_, T>,
-    [ix, iy, iz]: Slices<'_, T>,
-    [r, g, b]: SlicesMut<'_, T>,
-) {
-    let n = common_length([ox, oy, oz, ix, iy, iz].map(<[T]>::len));
-    common_length([n, r.len(), g.len(), b.len()]);
-    for k in 0..n {
-        [r[k], g[k], b[k]] = lobe.eval(Vec3::new(ox[k], oy[k], oz[k]), Vec3::new(ix[k], iy[k], iz[k]));
+// The loops. The first field only carries the instruction set that they are compiled for.
+struct Eval<'a, S, T>(S, Slices<'a, T>, Slices<'a, T>, SlicesMut<'a, T>);
+struct Pdf<'a, S, T>(S, Slices<'a, T>, Slices<'a, T>, &'a mut [T]);
+struct EvalPdf<'a, S, T>(S, Slices<'a, T>, Slices<'a, T>, SlicesMut<'a, T>, &'a mut [T]);
+struct Draw<'a, S, T>(S, Slices<'a, T>, Slices<'a, T>, SampleSlices<'a, T>);
+
+impl<S: Simd, T: Real> LobeVisitor<T> for Eval<'_, S, T> {
+    #[inline(always)]
+    fn visit<L: Lobe<T> + Copy>(self, lobe: L) {
+        let Self(_, wo, wi, [r, g, b]) = self;
+        let n = common_length([
+            r.len(),
+            g.len(),
+            b.len(),
+            common_length(wo.map(<[T]>::len)),
+            common_length(wi.map(<[T]>::len)),
+        ]);
+        for k in 0..n {
+            [r[k], g[k], b[k]] = lobe.eval(vector(wo, k), vector(wi, k));
+        }
     }
 }
 
-#[inline(always)]
-fn pdf_loop<S: Simd, T: Real, L: Lobe<T>>(
-    _: S,
-    lobe: L,
-    [ox, oy, oz]: Slices<'_, T>,
-    [ix, iy, iz]: Slices<'_, T>,
-    pdf: &mut [T],
-) {
-    let n = common_length([ox, oy, oz, ix, iy, iz].map(<[T]>::len));
-    common_length([n, pdf.len()]);
-    for k in 0..n {
-        pdf[k] = lobe.pdf(Vec3::new(ox[k], oy[k], oz[k]), Vec3::new(ix[k], iy[k], iz[k]));
+impl<S: Simd, T: Real> LobeVisitor<T> for Pdf<'_, S, T> {
+    #[inline(always)]
+    fn visit<L: Lobe<T> + Copy>(self, lobe: L) {
+        let Self(_, wo, wi, pdf) = self;
+        let n =
+            common_length([pdf.len(), common_length(wo.map(<[T]>::len)), common_length(wi.map(<[T]>::len))]);
+        for k in 0..n {
+            pdf[k] = lobe.pdf(vector(wo, k), vector(wi, k));
+        }
     }
 }
 
-#[inline(always)]
-fn eval_pdf_loop<S: Simd, T: Real, L: Lobe<T>>(
-    _: S,
-    lobe: L,
-    [ox, oy, oz]: Slices<'_, T>,
-    [ix, iy, iz]: Slices<'_, T>,
-    [r, g, b]: SlicesMut<'_, T>,
-    pdf: &mut [T],
-) {
-    let n = common_length([ox, oy, oz, ix, iy, iz].map(<[T]>::len));
-    common_length([n, r.len(), g.len(), b.len(), pdf.len()]);
-    for k in 0..n {
-        ([r[k], g[k], b[k]], pdf[k]) =
-            lobe.eval_pdf(Vec3::new(ox[k], oy[k], oz[k]), Vec3::new(ix[k], iy[k], iz[k]));
+impl<S: Simd, T: Real> LobeVisitor<T> for EvalPdf<'_, S, T> {
+    #[inline(always)]
+    fn visit<L: Lobe<T> + Copy>(self, lobe: L) {
+        let Self(_, wo, wi, [r, g, b], pdf) = self;
+        let n = common_length([
+            pdf.len(),
+            common_length([r.len(), g.len(), b.len()]),
+            common_length(wo.map(<[T]>::len)),
+            common_length(wi.map(<[T]>::len)),
+        ]);
+        for k in 0..n {
+            ([r[k], g[k], b[k]], pdf[k]) = lobe.eval_pdf(vector(wo, k), vector(wi, k));
+        }
     }
 }
 
-#[inline(always)]
-fn sample_loop<S: Simd, T: Real, L: Lobe<T>>(
-    _: S,
-    lobe: L,
-    [ox, oy, oz]: Slices<'_, T>,
-    [u1, u2, u3]: Slices<'_, T>,
-    out: SampleSlices<'_, T>,
-) {
-    let n = common_length([ox, oy, oz, u1, u2, u3].map(<[T]>::len));
-    let ([ix, iy, iz], [r, g, b], pdf, kind) = (out.wi, out.weight, out.pdf, out.lobe);
-    common_length([n, ix.len(), iy.len(), iz.len(), r.len(), g.len(), b.len(), pdf.len(), kind.len()]);
-    for k in 0..n {
-        let (wi, weight, density, lobe) =
-            match lobe.sample(Vec3::new(ox[k], oy[k], oz[k]), [u1[k], u2[k], u3[k]]) {
+impl<S: Simd, T: Real> LobeVisitor<T> for Draw<'_, S, T> {
+    #[inline(always)]
+    fn visit<L: Lobe<T> + Copy>(self, lobe: L) {
+        let Self(_, wo, [u1, u2, u3], out) = self;
+        let ([x, y, z], [r, g, b], pdf, kind) = (out.wi, out.weight, out.pdf, out.lobe);
+        let n = common_length([
+            common_length(wo.map(<[T]>::len)),
+            common_length([u1.len(), u2.len(), u3.len()]),
+            common_length([x.len(), y.len(), z.len()]),
+            common_length([r.len(), g.len(), b.len()]),
+            pdf.len(),
+            kind.len(),
+        ]);
+        for k in 0..n {
+            let (wi, weight, density, drawn) = match lobe.sample(vector(wo, k), [u1[k], u2[k], u3[k]]) {
                 Some(s) => (s.wi, s.weight, s.pdf, s.lobe),
                 None => (Vec3::default(), [T::ZERO; 3], T::ZERO, LobeKind::Single),
             };
-        [ix[k], iy[k], iz[k]] = wi.into();
-        [r[k], g[k], b[k]] = weight;
-        pdf[k] = density;
-        kind[k] = lobe;
+            [x[k], y[k], z[k]] = wi.into();
+            [r[k], g[k], b[k]] = weight;
+            pdf[k] = density;
+            kind[k] = drawn;
+        }
     }
 }

@@ -2,7 +2,7 @@
 
 use core::f64::consts::{FRAC_1_PI, FRAC_PI_2, PI};
 
-use crate::albedo::FastFit;
+use crate::albedo::{FastFit, Ray};
 use crate::{Real, Vec3};
 
 /// Nodes of the table of the azimuthal density over a quarter turn.
@@ -22,6 +22,8 @@ pub(crate) struct Compensation<T> {
     fit: FastFit<T>,
     /// `1 / (pi (1 - rho_avg))`.
     norm: T,
+    /// The radial distribution along `tangent_u`; the only one in the isotropic case.
+    first_ray: Ray<T>,
     /// Cumulated azimuthal density at the nodes, 0 first and 1 last.
     cumulated: [T; NODES],
     /// Azimuthal density at the nodes, in units of the table's parameter in `[0, 1]`.
@@ -32,12 +34,11 @@ impl<T: Real> Compensation<T> {
     /// Prepares the lobe for the widths of the disk distribution.
     pub(crate) fn new(widths: [T; 2]) -> Self {
         let fit = FastFit::fast(widths);
-        let mut lobe = Self { fit, norm: T::ZERO, cumulated: [T::ZERO; NODES], density: [T::ZERO; NODES] };
-        let quarter = if fit.isotropic {
-            lobe.fit.ray([T::ONE, T::ZERO]).energy() * T::from_f64(FRAC_PI_2)
-        } else {
-            lobe.tabulate()
-        };
+        let first_ray = fit.ray([T::ONE, T::ZERO]);
+        let table = [T::ZERO; NODES];
+        let mut lobe = Self { fit, norm: T::ZERO, first_ray, cumulated: table, density: table };
+        let quarter =
+            if fit.isotropic { first_ray.energy() * T::from_f64(FRAC_PI_2) } else { lobe.tabulate() };
         lobe.norm = T::from_f64(0.25) / quarter;
         lobe
     }
@@ -64,54 +65,62 @@ impl<T: Real> Compensation<T> {
         integral
     }
 
+    #[inline(always)]
+    pub(crate) fn is_isotropic(&self) -> bool {
+        self.fit.isotropic
+    }
+
     /// The share `1 - rho` that single scattering loses along w.
     #[inline(always)]
-    pub(crate) fn loss(&self, w: Vec3<T>) -> T {
-        self.fit.loss(w.x, w.y)
+    pub(crate) fn loss<const ISOTROPIC: bool>(&self, w: Vec3<T>) -> T {
+        self.fit.loss_as::<ISOTROPIC>(w.x, w.y)
     }
 
     /// The lobe q in 1/sr.
     #[inline(always)]
-    pub(crate) fn lobe(&self, w: Vec3<T>) -> T {
-        self.loss(w) * self.norm
+    pub(crate) fn lobe<const ISOTROPIC: bool>(&self, w: Vec3<T>) -> T {
+        self.loss::<ISOTROPIC>(w) * self.norm
     }
 
     /// Draws a direction with the density `q cos`, from a fresh uniform number and the digits of u1 that the first use
     /// has not seen.
     #[inline(always)]
-    pub(crate) fn sample(&self, fresh: T, u1: T) -> Vec3<T> {
+    pub(crate) fn sample<const ISOTROPIC: bool>(&self, fresh: T, u1: T) -> Vec3<T> {
         let turn = (u1 * T::from_f64(FRESH_DIGITS)).fract();
-        let (x, y) = if self.fit.isotropic {
+        let ([x, y], s2) = if ISOTROPIC {
             let (sin, cos) = turn.sin_cos_turns();
-            (cos, sin)
+            ([cos, sin], self.first_ray.sample_squared_sine(fresh))
         } else {
-            self.sample_azimuth(turn)
+            let direction = self.sample_azimuth(turn);
+            (direction, self.fit.ray(direction).sample_squared_sine(fresh))
         };
-        let s2 = self.fit.ray([x, y]).sample_squared_sine(fresh);
         let s = s2.sqrt();
         Vec3::new(s * x, s * y, (T::ONE - s2).sqrt())
     }
 
     /// Draws a unit vector in the plane from the azimuthal table.
     #[inline(always)]
-    fn sample_azimuth(&self, turn: T) -> (T, T) {
+    fn sample_azimuth(&self, turn: T) -> [T; 2] {
         let four = turn * T::from_f64(4.0);
         let u = four.fract();
         let quadrant = four - u;
-        let mut i = 0;
-        for &cumulated in &self.cumulated[1..NODES - 1] {
-            i += usize::from(cumulated <= u);
+        // The last node that is not beyond u, found without a look-up so that it works in vector registers.
+        let [mut node, mut start, mut low, mut high] = [T::ZERO, T::ZERO, self.density[0], self.density[1]];
+        for i in 1..NODES - 1 {
+            if self.cumulated[i] <= u {
+                [node, start] = [T::from_f64(i as f64), self.cumulated[i]];
+                [low, high] = [self.density[i], self.density[i + 1]];
+            }
         }
-        let (low, high) = (self.density[i], self.density[i + 1]);
-        let area = (u - self.cumulated[i]) * T::from_f64((NODES - 1) as f64);
+        let area = (u - start) * T::from_f64((NODES - 1) as f64);
         let root = (low * low + T::TWO * (high - low) * area).greater(T::ZERO).sqrt();
         let inside = (T::TWO * area / (low + root).greater(T::from_f64(1e-30))).lesser(T::ONE);
-        let node = (T::from_f64(i as f64) + inside) * T::from_f64(1.0 / (NODES - 1) as f64);
-        let (sin, cos) = (azimuth(node).0 * T::from_f64(0.5 * FRAC_1_PI)).sin_cos_turns();
+        let parameter = (node + inside) * T::from_f64(1.0 / (NODES - 1) as f64);
+        let (sin, cos) = (azimuth(parameter).0 * T::from_f64(0.5 * FRAC_1_PI)).sin_cos_turns();
         let [x, y] = self.fit.from_axes([cos, sin]);
         // Quadrants 0 to 3: (+, +), (-, +), (-, -), (+, -).
         let x_negative = quadrant == T::ONE || quadrant == T::TWO;
-        (if x_negative { -x } else { x }, if quadrant > T::from_f64(1.5) { -y } else { y })
+        [if x_negative { -x } else { x }, if quadrant > T::from_f64(1.5) { -y } else { y }]
     }
 }
 

@@ -59,14 +59,30 @@ impl<T: Real> Disk<T> {
 
     /// `B = sqrt((n_u+1)(n_v+1)) / (2 pi) * (1-|d|^2)^(n+1)` for two directions above the horizon.
     ///
-    /// With `e = (d_x/m_u, d_y/m_v)` the power is `exp(|e|^2 ln(1-|d|^2) / |d|^2)`: a Gaussian with a correction that
-    /// tends to 1 for small d, so nothing is undefined at d = 0.
+    /// With `e = (d_x/m_u, d_y/m_v)` the power is `exp(|e|^2 / |d|^2 ln(1-|d|^2))`: a Gaussian with a correction that
+    /// tends to 1 for small d. In the isotropic case the first quotient is the constant `n + 1`. Everything is scaled
+    /// by `z_o + z_i`, which spares a division.
     #[inline(always)]
-    pub(crate) fn lump(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
-        let (dx, dy) = offset(wo, wi);
+    pub(crate) fn lump<const ISOTROPIC: bool>(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
+        // d (z_o + z_i) = z_o i_xy - z_i o_xy, written with differences that are exact near the retro direction
+        // (Sterbenz), where the lobe lives.
+        let dz = wi.z - wo.z;
+        let dx = wo.z * (wi.x - wo.x) - dz * wo.x;
+        let dy = wo.z * (wi.y - wo.y) - dz * wo.y;
         let d2 = dx * dx + dy * dy;
-        let (ex, ey) = (dx * self.inv_m_u, dy * self.inv_m_v);
-        self.norm * ((ex * ex + ey * ey) * log_ratio(d2, complement(wo, wi))).exp_falling()
+        // (1 - |d|^2) (z_o + z_i)^2 = z_o z_i |wo + wi|^2, accurate where |d| is near 1.
+        let (sx, sy, sz) = (wo.x + wi.x, wo.y + wi.y, wo.z + wi.z);
+        let whole = sz * sz;
+        let part = (wo.z * wi.z) * (sx * sx + sy * sy + whole);
+        // At d = 0 the quotient is 0 and the power 1, as it should be. Where part is tiny, the power is 0.
+        let tiny = T::from_f64(1e-36);
+        let exponent = if ISOTROPIC {
+            self.inv_m_u * self.inv_m_u
+        } else {
+            let (ex, ey) = (dx * self.inv_m_u, dy * self.inv_m_v);
+            (ex * ex + ey * ey) / d2.greater(tiny)
+        };
+        self.norm * (exponent * d2.log2_quotient(part.greater(tiny), whole)).exp2_falling()
     }
 
     /// Draws an offset d from the distribution and reflects `wo` about the half vector `(o_xy + d, z_o)`.
@@ -95,30 +111,4 @@ impl<T: Real> Disk<T> {
         );
         DiskSample { wi, lump: self.norm * rest }
     }
-}
-
-/// The disk offset `d = (z_o i_xy - z_i o_xy) / (z_o + z_i)` of the half vector from `wo`.
-///
-/// Written with differences that are exact near the retro direction (Sterbenz), where the lobe lives.
-#[inline(always)]
-fn offset<T: Real>(wo: Vec3<T>, wi: Vec3<T>) -> (T, T) {
-    let inv = T::ONE / (wo.z + wi.z);
-    let dz = wi.z - wo.z;
-    ((wo.z * (wi.x - wo.x) - dz * wo.x) * inv, (wo.z * (wi.y - wo.y) - dz * wo.y) * inv)
-}
-
-/// `1 - |d|^2 = z_o z_i |wo + wi|^2 / (z_o + z_i)^2`, accurate where |d| is near 1.
-#[inline(always)]
-fn complement<T: Real>(wo: Vec3<T>, wi: Vec3<T>) -> T {
-    let (sx, sy, sz) = (wo.x + wi.x, wo.y + wi.y, wo.z + wi.z);
-    (wo.z / sz) * (wi.z / sz) * (sx * sx + sy * sy + sz * sz)
-}
-
-/// `ln(1 - x) / x` for x in `[0, 1)`, given also `1 - x`; -1 at x = 0.
-#[inline(always)]
-fn log_ratio<T: Real>(x: T, complement: T) -> T {
-    // Below 1e-30 the power is 0 for every exponent that matters, and the logarithm stays finite.
-    let tiny = T::from_f64(1e-30);
-    let ratio = x.ln_one_minus(complement.greater(tiny)) / x.greater(tiny);
-    if x > tiny { ratio } else { -T::ONE }
 }

@@ -42,7 +42,7 @@ impl<T: Real> Lobe<T> for Edwards<T> {
         if !above_horizon(wo, wi) {
             return ([T::ZERO; 3], T::ZERO);
         }
-        let pdf = disk.lump(wo, wi) * wo.z / (wi.z * (wo.z + wi.z));
+        let pdf = disk.lump::<false>(wo, wi) * wo.z / (wi.z * (wo.z + wi.z));
         (self.tint.map(|t| t * pdf / wi.z), pdf)
     }
 

@@ -19,7 +19,7 @@ mod vec3;
 pub use back_vector::BackVector;
 pub use disk::{DIRAC_ROUGHNESS, width};
 pub use edwards::Edwards;
-pub use lobe::{Lobe, LobeKind, Sample};
+pub use lobe::{Lobe, LobeKind, LobeVisitor, Sample};
 pub use model::{AnyLobe, Model};
 pub use params::{ParamError, Params};
 pub use real::Real;

@@ -67,4 +67,19 @@ pub trait Lobe<T: Real> {
     /// Whether the lobe is a Dirac distribution, which only `sample` can meet.
     #[must_use]
     fn is_dirac(&self) -> bool;
+
+    /// Calls `visitor` with the lobe in the form that has the fewest decisions left to make, for long loops.
+    #[inline(always)]
+    fn specialize<V: LobeVisitor<T>>(&self, visitor: V)
+    where
+        Self: Copy + Sized,
+    {
+        visitor.visit(*self);
+    }
+}
+
+/// A loop over a lobe, compiled once for each form of it. See [`Lobe::specialize`].
+pub trait LobeVisitor<T: Real> {
+    /// Runs the loop.
+    fn visit<L: Lobe<T> + Copy>(self, lobe: L);
 }

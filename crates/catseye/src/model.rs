@@ -1,7 +1,7 @@
 //! The choice among the lobes at run time.
 
 use crate::albedo::exact;
-use crate::{BackVector, Edwards, Lobe, ParamError, Params, Real, Reciprocal, Sample, Vec3};
+use crate::{BackVector, Edwards, Lobe, LobeVisitor, ParamError, Params, Real, Reciprocal, Sample, Vec3};
 
 /// The lobes that can be chosen by name.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -54,14 +54,6 @@ impl<T: Real> AnyLobe<T> {
             Model::BackVector => Self::BackVector(BackVector::new(params)?),
         })
     }
-
-    fn inner(&self) -> &dyn Lobe<T> {
-        match self {
-            Self::Reciprocal(lobe) => lobe,
-            Self::Edwards(lobe) => lobe,
-            Self::BackVector(lobe) => lobe,
-        }
-    }
 }
 
 impl Model {
@@ -83,23 +75,43 @@ impl Model {
     }
 }
 
+/// Calls the same method of whichever lobe it is.
+macro_rules! forward {
+    ($self:ident, $lobe:ident => $call:expr) => {
+        match $self {
+            AnyLobe::Reciprocal($lobe) => $call,
+            AnyLobe::Edwards($lobe) => $call,
+            AnyLobe::BackVector($lobe) => $call,
+        }
+    };
+}
+
 impl<T: Real> Lobe<T> for AnyLobe<T> {
     fn eval(&self, wo: Vec3<T>, wi: Vec3<T>) -> [T; 3] {
-        self.inner().eval(wo, wi)
+        forward!(self, lobe => lobe.eval(wo, wi))
     }
+
     fn pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
-        self.inner().pdf(wo, wi)
+        forward!(self, lobe => lobe.pdf(wo, wi))
     }
+
     fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> ([T; 3], T) {
-        self.inner().eval_pdf(wo, wi)
+        forward!(self, lobe => lobe.eval_pdf(wo, wi))
     }
+
     fn sample(&self, wo: Vec3<T>, u: [T; 3]) -> Option<Sample<T>> {
-        self.inner().sample(wo, u)
+        forward!(self, lobe => lobe.sample(wo, u))
     }
+
     fn albedo(&self, wo: Vec3<T>) -> [T; 3] {
-        self.inner().albedo(wo)
+        forward!(self, lobe => lobe.albedo(wo))
     }
+
     fn is_dirac(&self) -> bool {
-        self.inner().is_dirac()
+        forward!(self, lobe => lobe.is_dirac())
+    }
+
+    fn specialize<V: LobeVisitor<T>>(&self, visitor: V) {
+        forward!(self, lobe => lobe.specialize(visitor));
     }
 }

@@ -61,9 +61,9 @@ pub trait Real:
     /// The fractional part of a value in `[0, 2^22)`.
     #[must_use]
     fn fract(self) -> Self;
-    /// e to the power of a value in `[-inf, 0]`; 0 below -80, where denormals would cost more than they are worth.
+    /// 2 to the power of a value in `[-inf, 0]`; 0 below -115, where denormals would cost more than they are worth.
     #[must_use]
-    fn exp_falling(self) -> Self;
+    fn exp2_falling(self) -> Self;
     /// `exp(self) - 1` for a value in `[-80, 0]`, accurate for small values.
     #[must_use]
     fn exp_m1_falling(self) -> Self;
@@ -71,6 +71,9 @@ pub trait Real:
     /// result is computed where `self` is near 1.
     #[must_use]
     fn ln_one_minus(self, complement: Self) -> Self;
+    /// `log2(part / whole)` for `self = whole - part`, accurate where the quotient is near 1 and where it is small.
+    #[must_use]
+    fn log2_quotient(self, part: Self, whole: Self) -> Self;
     /// Sine and cosine of an angle in radians.
     fn sin_cos(self) -> (Self, Self);
     /// Sine and cosine of an angle in turns, in `[0, 1]`.
@@ -145,8 +148,8 @@ impl Real for f64 {
         math!(self.fract(), self - libm::trunc(self))
     }
     #[inline(always)]
-    fn exp_falling(self) -> Self {
-        if self < -80.0 { 0.0 } else { math!(self.exp(), libm::exp(self)) }
+    fn exp2_falling(self) -> Self {
+        if self > -115.0 { math!(self.exp2(), libm::exp2(self)) } else { 0.0 }
     }
     #[inline(always)]
     fn exp_m1_falling(self) -> Self {
@@ -159,6 +162,10 @@ impl Real for f64 {
         } else {
             math!(complement.ln(), libm::log(complement))
         }
+    }
+    #[inline(always)]
+    fn log2_quotient(self, part: Self, whole: Self) -> Self {
+        Real::ln_one_minus(self / whole, part / whole) * core::f64::consts::LOG2_E
     }
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
@@ -208,8 +215,8 @@ impl Real for f32 {
         f32_math::fract(self)
     }
     #[inline(always)]
-    fn exp_falling(self) -> Self {
-        f32_math::exp_falling(self)
+    fn exp2_falling(self) -> Self {
+        f32_math::exp2_falling(self)
     }
     #[inline(always)]
     fn exp_m1_falling(self) -> Self {
@@ -218,6 +225,10 @@ impl Real for f32 {
     #[inline(always)]
     fn ln_one_minus(self, complement: Self) -> Self {
         f32_math::ln_one_minus(self, complement)
+    }
+    #[inline(always)]
+    fn log2_quotient(self, part: Self, whole: Self) -> Self {
+        f32_math::log2_quotient(self, part, whole)
     }
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {

@@ -2,7 +2,7 @@
 
 use crate::compensation::Compensation;
 use crate::disk::{Disk, HORIZON, above_horizon};
-use crate::{Lobe, LobeKind, ParamError, Params, Real, Sample, Vec3};
+use crate::{Lobe, LobeKind, LobeVisitor, ParamError, Params, Real, Sample, Vec3};
 
 /// The BSDF of the `retro_reflective_bsdf` node: Edwards' lobe made reciprocal, plus the compensation of the energy
 /// it loses.
@@ -65,27 +65,31 @@ impl<T: Real> Reciprocal<T> {
         let energy = self.single * kept + self.multiple * loss;
         // With as much tint as compensation, base = 0 and slope = 1 make f cos itself the density of what is kept.
         // More tint keeps some of the rejected samples, less tint rejects some of the accepted ones.
-        let ratio = self.single.lesser(self.multiple) / energy.greater(T::from_f64(1e-30));
-        let (base, slope) = if self.single < self.multiple {
-            (T::ZERO, self.single / energy)
-        } else {
-            (T::ONE - ratio.lesser(T::ONE), ratio.lesser(T::ONE))
-        };
+        let (lesser, greater) = (self.single.lesser(self.multiple), self.single.greater(self.multiple));
+        let slope = (lesser / energy.greater(T::from_f64(1e-30))).lesser(T::ONE);
+        let base = if self.single < greater { T::ZERO } else { T::ONE - slope };
         Split { base, slope, multiple: (T::ONE - base - slope * kept).greater(T::ZERO) }
     }
 
     /// BSDF and density for two directions above the horizon, given the lump B.
     #[inline(always)]
-    fn eval_pdf_with(&self, lump: T, wo: Vec3<T>, wi: Vec3<T>) -> ([T; 3], T) {
-        let inv_sum = T::ONE / (wo.z + wi.z);
-        let (low, high) = (wo.z.lesser(wi.z), wo.z.greater(wi.z));
-        let f = lump * inv_sum * (low / (high * high));
-        let pdf_single = lump * inv_sum * (wo.z / wi.z);
-        if !(self.multiple > T::ZERO) {
+    fn eval_pdf_with<const COMPENSATED: bool, const ISOTROPIC: bool>(
+        &self,
+        lump: T,
+        wo: Vec3<T>,
+        wi: Vec3<T>,
+    ) -> ([T; 3], T) {
+        // All quotients come from one division, in factors that stay in range: low / high^2 and z_o / z_i.
+        let (sum, product, low) = (wo.z + wi.z, wo.z * wi.z, wo.z.lesser(wi.z));
+        let inv = T::ONE / (sum * product);
+        let (inv_sum, inv_product) = (inv * product, inv * sum);
+        let f = lump * (inv_sum * (low * low * inv_product) * (low * inv_product));
+        let pdf_single = lump * (inv_sum * (wo.z * wo.z * inv_product));
+        if !COMPENSATED {
             return (self.tint.map(|t| t * f), pdf_single);
         }
-        let loss_o = self.compensation.loss(wo);
-        let q = self.compensation.lobe(wi);
+        let loss_o = self.compensation.loss::<ISOTROPIC>(wo);
+        let q = self.compensation.lobe::<ISOTROPIC>(wi);
         let split = self.split(loss_o);
         let f_ms = loss_o * q;
         let [t, m] = [self.tint, self.multiscatter_tint];
@@ -93,7 +97,69 @@ impl<T: Real> Reciprocal<T> {
         let pdf = split.base * pdf_single + (split.slope * f + split.multiple * q) * wi.z;
         (total, pdf)
     }
+
+    #[inline(always)]
+    fn eval_pdf_as<const COMPENSATED: bool, const ISOTROPIC: bool>(
+        &self,
+        wo: Vec3<T>,
+        wi: Vec3<T>,
+    ) -> ([T; 3], T) {
+        let Some(disk) = &self.disk else { return ([T::ZERO; 3], T::ZERO) };
+        if !above_horizon(wo, wi) {
+            return ([T::ZERO; 3], T::ZERO);
+        }
+        self.eval_pdf_with::<COMPENSATED, ISOTROPIC>(disk.lump::<ISOTROPIC>(wo, wi), wo, wi)
+    }
+
+    #[inline(always)]
+    fn sample_as<const COMPENSATED: bool, const ISOTROPIC: bool>(
+        &self,
+        wo: Vec3<T>,
+        [u1, u2, u3]: [T; 3],
+    ) -> Option<Sample<T>> {
+        if !(wo.z > T::from_f64(HORIZON)) {
+            return None;
+        }
+        let Some(disk) = &self.disk else {
+            return Some(Sample { wi: wo, weight: self.tint, pdf: T::ONE, lobe: LobeKind::Dirac });
+        };
+        let mut drawn = disk.sample(wo, u1, u2);
+        let mut lobe = LobeKind::Single;
+        // The quotient of f cos and the density drawn from is min(1, z_i/z_o)^3.
+        let ratio = (drawn.wi.z / wo.z).lesser(T::ONE);
+        if !COMPENSATED {
+            if !above_horizon(wo, drawn.wi) {
+                return None;
+            }
+            let pdf = drawn.lump * wo.z / (drawn.wi.z * (wo.z + drawn.wi.z));
+            let weight = self.tint.map(|t| t * (ratio * ratio * ratio));
+            return Some(Sample { wi: drawn.wi, weight, pdf, lobe });
+        }
+        let split = self.split(self.compensation.loss::<ISOTROPIC>(wo));
+        let keep = split.base + split.slope * (ratio * ratio * ratio);
+        if u3 >= keep {
+            let fresh = ((u3 - keep) / (T::ONE - keep)).lesser(T::ONE);
+            drawn.wi = self.compensation.sample::<ISOTROPIC>(fresh, u1);
+            drawn.lump = disk.lump::<ISOTROPIC>(wo, drawn.wi);
+            lobe = LobeKind::Multiple;
+        }
+        if !above_horizon(wo, drawn.wi) {
+            return None;
+        }
+        let (f, pdf) = self.eval_pdf_with::<COMPENSATED, ISOTROPIC>(drawn.lump, wo, drawn.wi);
+        let scale = drawn.wi.z / pdf;
+        Some(Sample { wi: drawn.wi, weight: f.map(|f| f * scale), pdf, lobe })
+    }
+
+    #[inline(always)]
+    fn is_compensated(&self) -> bool {
+        self.multiple > T::ZERO
+    }
 }
+
+/// The lobe with its decisions made: whether it is compensated, and whether it is isotropic.
+#[derive(Clone, Copy, Debug)]
+struct Form<T, const COMPENSATED: bool, const ISOTROPIC: bool>(Reciprocal<T>);
 
 impl<T: Real> Lobe<T> for Reciprocal<T> {
     #[inline(always)]
@@ -108,41 +174,22 @@ impl<T: Real> Lobe<T> for Reciprocal<T> {
 
     #[inline(always)]
     fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> ([T; 3], T) {
-        let Some(disk) = &self.disk else { return ([T::ZERO; 3], T::ZERO) };
-        if !above_horizon(wo, wi) {
-            return ([T::ZERO; 3], T::ZERO);
+        match (self.is_compensated(), self.compensation.is_isotropic()) {
+            (false, true) => self.eval_pdf_as::<false, true>(wo, wi),
+            (false, false) => self.eval_pdf_as::<false, false>(wo, wi),
+            (true, true) => self.eval_pdf_as::<true, true>(wo, wi),
+            (true, false) => self.eval_pdf_as::<true, false>(wo, wi),
         }
-        self.eval_pdf_with(disk.lump(wo, wi), wo, wi)
     }
 
     #[inline(always)]
-    fn sample(&self, wo: Vec3<T>, [u1, u2, u3]: [T; 3]) -> Option<Sample<T>> {
-        if !(wo.z > T::from_f64(HORIZON)) {
-            return None;
+    fn sample(&self, wo: Vec3<T>, u: [T; 3]) -> Option<Sample<T>> {
+        match (self.is_compensated(), self.compensation.is_isotropic()) {
+            (false, true) => self.sample_as::<false, true>(wo, u),
+            (false, false) => self.sample_as::<false, false>(wo, u),
+            (true, true) => self.sample_as::<true, true>(wo, u),
+            (true, false) => self.sample_as::<true, false>(wo, u),
         }
-        let Some(disk) = &self.disk else {
-            return Some(Sample { wi: wo, weight: self.tint, pdf: T::ONE, lobe: LobeKind::Dirac });
-        };
-        let mut drawn = disk.sample(wo, u1, u2);
-        let mut lobe = LobeKind::Single;
-        if self.multiple > T::ZERO {
-            // Accept with the probability min(1, z_i/z_o)^3, the ratio of f cos to the density drawn from.
-            let ratio = (drawn.wi.z / wo.z).lesser(T::ONE);
-            let split = self.split(self.compensation.loss(wo));
-            let keep = split.base + split.slope * (ratio * ratio * ratio);
-            if u3 >= keep {
-                let fresh = ((u3 - keep) / (T::ONE - keep)).lesser(T::ONE);
-                drawn.wi = self.compensation.sample(fresh, u1);
-                drawn.lump = disk.lump(wo, drawn.wi);
-                lobe = LobeKind::Multiple;
-            }
-        }
-        if !above_horizon(wo, drawn.wi) {
-            return None;
-        }
-        let (f, pdf) = self.eval_pdf_with(drawn.lump, wo, drawn.wi);
-        let scale = drawn.wi.z / pdf;
-        Some(Sample { wi: drawn.wi, weight: f.map(|f| f * scale), pdf, lobe })
     }
 
     #[inline]
@@ -150,12 +197,53 @@ impl<T: Real> Lobe<T> for Reciprocal<T> {
         if !(wo.z > T::ZERO) {
             return [T::ZERO; 3];
         }
-        let loss = if self.disk.is_some() { self.compensation.loss(wo) } else { T::ZERO };
+        let loss = if self.disk.is_some() { self.compensation.loss::<false>(wo) } else { T::ZERO };
         let [t, m] = [self.tint, self.multiscatter_tint];
         [0, 1, 2].map(|c| t[c] * (T::ONE - loss) + m[c] * loss)
     }
 
     fn is_dirac(&self) -> bool {
         self.disk.is_none()
+    }
+
+    #[inline(always)]
+    fn specialize<V: LobeVisitor<T>>(&self, visitor: V) {
+        match (self.is_compensated(), self.compensation.is_isotropic()) {
+            (false, true) => visitor.visit(Form::<T, false, true>(*self)),
+            (false, false) => visitor.visit(Form::<T, false, false>(*self)),
+            (true, true) => visitor.visit(Form::<T, true, true>(*self)),
+            (true, false) => visitor.visit(Form::<T, true, false>(*self)),
+        }
+    }
+}
+
+impl<T: Real, const COMPENSATED: bool, const ISOTROPIC: bool> Lobe<T> for Form<T, COMPENSATED, ISOTROPIC> {
+    #[inline(always)]
+    fn eval(&self, wo: Vec3<T>, wi: Vec3<T>) -> [T; 3] {
+        self.eval_pdf(wo, wi).0
+    }
+
+    #[inline(always)]
+    fn pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
+        self.eval_pdf(wo, wi).1
+    }
+
+    #[inline(always)]
+    fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> ([T; 3], T) {
+        self.0.eval_pdf_as::<COMPENSATED, ISOTROPIC>(wo, wi)
+    }
+
+    #[inline(always)]
+    fn sample(&self, wo: Vec3<T>, u: [T; 3]) -> Option<Sample<T>> {
+        self.0.sample_as::<COMPENSATED, ISOTROPIC>(wo, u)
+    }
+
+    #[inline]
+    fn albedo(&self, wo: Vec3<T>) -> [T; 3] {
+        self.0.albedo(wo)
+    }
+
+    fn is_dirac(&self) -> bool {
+        self.0.is_dirac()
     }
 }

@@ -38,10 +38,10 @@ impl Quadrature {
         let m2 = m * m;
         let c2 = (c * c).lesser(1.0);
         let top_ln = if c < 0.0 { c2.ln_one_minus(1.0 - c2) / m2 } else { 0.0 };
-        if top_ln < -80.0 {
+        if top_ln < -79.0 {
             return 0.0;
         }
-        let top = top_ln.exp_falling();
+        let top = 1.0 + top_ln.exp_m1_falling();
         // q = top (1-v^2)^3 resolves the square root of t at one end and the power of q at the other.
         self.along.integrate(0.0, 1.0, |v| {
             let v2 = v * v;

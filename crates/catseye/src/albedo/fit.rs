@@ -99,10 +99,16 @@ impl<T: Real, const A: usize, const B: usize, const C: usize, const D: usize> Fi
     #[inline(always)]
     #[must_use]
     pub fn loss(&self, x: T, y: T) -> T {
+        self.loss_as::<false>(x, y)
+    }
+
+    /// [`Fit::loss`]; where the fit is known to be isotropic, at compile time, for less.
+    #[inline(always)]
+    pub(crate) fn loss_as<const ISOTROPIC: bool>(&self, x: T, y: T) -> T {
         let (x2, y2) = (x * x, y * y);
         let e = (self.e_x * x2 + self.e_y * y2 + self.e_0).sqrt() - T::from_f64(CENTRE);
         let mut loss = horner(&self.p0, e);
-        if !self.isotropic {
+        if !ISOTROPIC {
             let w = self.w_x * x2 + self.w_y * y2;
             loss += w * (horner(&self.p1, e) + w * (horner(&self.p2, e) + w * horner(&self.p3, e)));
         }
@@ -136,17 +142,20 @@ impl<T: Real> FastFit<T> {
             let p1: [T; 7] = add_product(&substitute(&self.p1, start, range), w, &p2);
             loss = add_product(&loss, w, &p1);
         }
-        Ray { loss, first: first * inv_sum, range: range * inv_sum }
+        Ray::new(loss, first * inv_sum, range * inv_sum)
     }
 }
 
 /// The loss along a ray from the normal to the horizon, a polynomial in `t = (e - e_first) / (e_last - e_first)`.
 ///
 /// With `b s^2 = e^2 - e_first^2` the squared sine is the parabola `s^2 = t (2 first + range t)`, where `first` and
-/// `range` are `e_first` and `e_last - e_first` over their values' sum: nothing is divided by b, which may be 0.
+/// `range` are `e_first` and `e_last - e_first` over the sum of both ends: nothing is divided by b, which may be 0.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ray<T> {
-    loss: [T; 9],
+    /// The loss times s ds/dt.
+    density: [T; 10],
+    /// Its integral from 0 to t, over t.
+    cumulated: [T; 10],
     first: T,
     range: T,
 }
@@ -155,22 +164,25 @@ pub(crate) struct Ray<T> {
 const NEWTON_STEPS: usize = 4;
 
 impl<T: Real> Ray<T> {
-    /// The integral of `loss s ds` from the normal to t.
     #[inline(always)]
-    fn energy_to(&self, t: T) -> T {
-        let mut sum = T::ZERO;
-        for (j, &c) in self.loss.iter().enumerate().rev() {
-            let power = T::from_f64(1.0 / (j + 1) as f64) * self.first
-                + T::from_f64(1.0 / (j + 2) as f64) * self.range * t;
-            sum = sum * t + c * power;
+    fn new(loss: [T; 9], first: T, range: T) -> Self {
+        // s ds = (first + range t) dt
+        let mut density = [T::ZERO; 10];
+        for (j, &c) in loss.iter().enumerate() {
+            density[j] += first * c;
+            density[j + 1] += range * c;
         }
-        sum * t
+        let mut cumulated = density;
+        for (j, c) in cumulated.iter_mut().enumerate() {
+            *c = *c * T::from_f64(1.0 / (j + 1) as f64);
+        }
+        Self { density, cumulated, first, range }
     }
 
     /// The integral of `loss s ds` over the ray.
     #[inline(always)]
     pub(crate) fn energy(&self) -> T {
-        self.energy_to(T::ONE)
+        horner(&self.cumulated, T::ONE)
     }
 
     /// The squared sine below which lies the share u of the energy.
@@ -182,8 +194,8 @@ impl<T: Real> Ray<T> {
         let start = root * root.sqrt();
         let mut t = start / (self.first + (self.first * self.first + self.range * start).sqrt());
         for _ in 0..NEWTON_STEPS {
-            let slope = horner(&self.loss, t) * (self.first + self.range * t);
-            t -= (self.energy_to(t) - target) / slope.greater(T::from_f64(1e-12));
+            let excess = t * horner(&self.cumulated, t) - target;
+            t -= excess / horner(&self.density, t).greater(T::from_f64(1e-12));
             t = t.greater(T::ZERO).lesser(T::ONE);
         }
         (t * (T::TWO * self.first + self.range * t)).lesser(T::ONE)
@@ -233,12 +245,17 @@ fn chebyshev<T: Real, const N: usize>(x: T) -> [T; N] {
     values
 }
 
-/// The polynomial with the given coefficients, lowest first.
+/// The polynomial with the given coefficients, lowest first; its even and odd parts are independent chains.
 #[inline(always)]
 fn horner<T: Real, const N: usize>(coefficients: &[T; N], x: T) -> T {
-    let mut sum = T::ZERO;
-    for &c in coefficients.iter().rev() {
-        sum = sum * x + c;
+    let x2 = x * x;
+    let (mut even, mut odd) = (T::ZERO, T::ZERO);
+    for (j, &c) in coefficients.iter().enumerate().rev() {
+        if j % 2 == 0 {
+            even = even * x2 + c;
+        } else {
+            odd = odd * x2 + c;
+        }
     }
-    sum
+    even + x * odd
 }

@@ -13,6 +13,7 @@ mod fit;
 mod gauss;
 mod tables;
 
+pub(crate) use fit::Ray;
 pub(crate) use gauss::Gauss;
 
 pub use fit::{CENTRE, CompactFit, FastFit, Fit};
