@@ -44,7 +44,7 @@ impl Finish {
     }
 }
 
-/// Sheeting with a wide lobe: seen from about a degree beside the lamps it still returns some thirty times the light
+/// Sheeting with a wide lobe: seen from 1.4 degrees beside the lamps it still returns some thirty times the light
 /// of white paint.
 fn beaded_sheeting() -> Closure {
     let retro = Closure::RetroReflective {
