@@ -241,7 +241,8 @@ impl Shape {
         for rows in table.chunks(n_c * n_k) {
             writeln!(out, "    [")?;
             for row in rows.chunks(n_c) {
-                let numbers: Vec<String> = row.iter().map(|x| format!("{x:.6}")).collect();
+                let numbers: Vec<String> =
+                    row.iter().map(|x| format!("{:?}", (x * 1e6).round() as f32 / 1e6)).collect();
                 writeln!(out, "        [{}],", numbers.join(", "))?;
             }
             writeln!(out, "    ],")?;

@@ -1,7 +1,7 @@
 //! The back-vector microfacet lobe of MaterialX 1.39.5, `OpenPBR` 1.2 and the glTF draft, for comparison.
 
 use crate::albedo::Gauss;
-use crate::disk::{DIRAC_ROUGHNESS, HORIZON, above_horizon};
+use crate::disk::{DIRAC_ROUGHNESS, above_horizon, is_above_horizon};
 use crate::{Lobe, LobeKind, ParamError, Params, Real, Sample, Vec3};
 
 /// GGX reflection with the view direction mirrored about the normal: what `conductor_bsdf` with
@@ -101,7 +101,7 @@ impl<T: Real> Lobe<T> for BackVector<T> {
 
     #[inline(always)]
     fn sample(&self, wo: Vec3<T>, [u1, u2, _]: [T; 3]) -> Option<Sample<T>> {
-        if !(wo.z > T::from_f64(HORIZON)) {
+        if !is_above_horizon(wo) {
             return None;
         }
         if self.dirac {
@@ -112,7 +112,7 @@ impl<T: Real> Lobe<T> for BackVector<T> {
             return None;
         }
         let (f, pdf) = self.eval_pdf(wo, wi);
-        if !(pdf > T::ZERO) {
+        if pdf <= T::ZERO {
             return None;
         }
         let scale = wi.z / pdf;
@@ -123,7 +123,7 @@ impl<T: Real> Lobe<T> for BackVector<T> {
     fn albedo(&self, wo: Vec3<T>) -> [T; 3] {
         /// Azimuths of the quadrature.
         const AROUND: usize = 64;
-        if !(wo.z > T::from_f64(HORIZON)) {
+        if !is_above_horizon(wo) {
             return [T::ZERO; 3];
         }
         if self.dirac {
@@ -134,12 +134,13 @@ impl<T: Real> Lobe<T> for BackVector<T> {
         let mut rho = T::ZERO;
         for i in 0..AROUND {
             let u1 = T::from_f64((i as f64 + 0.5) / AROUND as f64);
-            let weight = |u2: f64| {
-                let wi = self.sample_direction(wo, u1, T::from_f64(u2));
+            // Nodes crowd at u2 = 1, the tail of the distribution, where the weight falls to 0.
+            let weight = |v: f64| {
+                let wi = self.sample_direction(wo, u1, T::from_f64(1.0 - v * v * v));
                 if !above_horizon(wo, wi) {
                     return 0.0;
                 }
-                ((T::ONE + lambda_o) / (T::ONE + lambda_o + self.lambda(wi))).to_f64()
+                3.0 * v * v * ((T::ONE + lambda_o) / (T::ONE + lambda_o + self.lambda(wi))).to_f64()
             };
             rho += T::from_f64(rule.integrate(0.0, 1.0, weight) / AROUND as f64);
         }

@@ -139,8 +139,8 @@ impl<S: Simd, T: Real> LobeVisitor<T> for Pdf<'_, S, T> {
         let Self(_, wo, wi, pdf) = self;
         let n =
             common_length([pdf.len(), common_length(wo.map(<[T]>::len)), common_length(wi.map(<[T]>::len))]);
-        for k in 0..n {
-            pdf[k] = lobe.pdf(vector(wo, k), vector(wi, k));
+        for (k, pdf) in pdf[..n].iter_mut().enumerate() {
+            *pdf = lobe.pdf(vector(wo, k), vector(wi, k));
         }
     }
 }

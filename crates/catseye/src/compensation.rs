@@ -50,7 +50,7 @@ impl<T: Real> Compensation<T> {
         for i in 0..NODES {
             let (phi, slope) = azimuth(step * T::from_f64(i as f64));
             let (sin, cos) = phi.sin_cos();
-            self.density[i] = self.fit.ray(self.fit.from_axes([cos, sin])).energy() * slope;
+            self.density[i] = self.fit.ray(self.fit.in_frame([cos, sin])).energy() * slope;
             // Simpson's rule for the norm, the trapezoid rule for what is sampled: the table is linear between nodes.
             let simpson = if i == 0 || i == NODES - 1 { 1.0 } else { 2.0 + 2.0 * (i % 2) as f64 };
             integral += self.density[i] * step * T::from_f64(simpson / 3.0);
@@ -117,7 +117,7 @@ impl<T: Real> Compensation<T> {
         let inside = (T::TWO * area / (low + root).greater(T::from_f64(1e-30))).lesser(T::ONE);
         let parameter = (node + inside) * T::from_f64(1.0 / (NODES - 1) as f64);
         let (sin, cos) = (azimuth(parameter).0 * T::from_f64(0.5 * FRAC_1_PI)).sin_cos_turns();
-        let [x, y] = self.fit.from_axes([cos, sin]);
+        let [x, y] = self.fit.in_frame([cos, sin]);
         // Quadrants 0 to 3: (+, +), (-, +), (-, -), (+, -).
         let x_negative = quadrant == T::ONE || quadrant == T::TWO;
         [if x_negative { -x } else { x }, if quadrant > T::from_f64(1.5) { -y } else { y }]

@@ -6,7 +6,13 @@ use crate::{Real, Vec3};
 pub const DIRAC_ROUGHNESS: f64 = 1e-4;
 
 /// Cosine below which a direction counts as below the horizon, so that quotients of cosines stay finite in `f32`.
-pub(crate) const HORIZON: f64 = 1e-12;
+const HORIZON: f64 = 1e-12;
+
+/// Whether the direction is above the horizon. False for NaN.
+#[inline(always)]
+pub(crate) fn is_above_horizon<T: Real>(w: Vec3<T>) -> bool {
+    w.z > T::from_f64(HORIZON)
+}
 
 /// Whether both directions are above the horizon. False for NaN.
 #[inline(always)]

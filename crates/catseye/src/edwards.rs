@@ -1,6 +1,6 @@
 //! The asymmetric lobe of the halfway-vector-disk paper.
 
-use crate::disk::{Disk, HORIZON, above_horizon};
+use crate::disk::{Disk, above_horizon, is_above_horizon};
 use crate::{Lobe, LobeKind, ParamError, Params, Real, Sample, Vec3};
 
 /// The lobe of Edwards et al. 2006 as published: `f = B z_o / (z_i^2 (z_o + z_i))`, the density of its samples over
@@ -48,7 +48,7 @@ impl<T: Real> Lobe<T> for Edwards<T> {
 
     #[inline(always)]
     fn sample(&self, wo: Vec3<T>, [u1, u2, _]: [T; 3]) -> Option<Sample<T>> {
-        if !(wo.z > T::from_f64(HORIZON)) {
+        if !is_above_horizon(wo) {
             return None;
         }
         let Some(disk) = &self.disk else {
@@ -64,7 +64,7 @@ impl<T: Real> Lobe<T> for Edwards<T> {
 
     #[inline]
     fn albedo(&self, wo: Vec3<T>) -> [T; 3] {
-        if wo.z > T::ZERO { self.tint } else { [T::ZERO; 3] }
+        if is_above_horizon(wo) { self.tint } else { [T::ZERO; 3] }
     }
 
     fn is_dirac(&self) -> bool {

@@ -1,6 +1,7 @@
 //! The choice among the lobes at run time.
 
 use crate::albedo::exact;
+use crate::disk::is_above_horizon;
 use crate::{BackVector, Edwards, Lobe, LobeVisitor, ParamError, Params, Real, Reciprocal, Sample, Vec3};
 
 /// The lobes that can be chosen by name.
@@ -32,7 +33,6 @@ impl Model {
 
 /// A lobe of any model.
 #[derive(Clone, Copy, Debug)]
-#[expect(clippy::large_enum_variant, reason = "lobes are few, kept in place and used without allocation")]
 pub enum AnyLobe<T> {
     /// See [`Reciprocal`].
     Reciprocal(Reciprocal<T>),
@@ -67,7 +67,7 @@ impl Model {
             return Ok(AnyLobe::new(self, params)?.albedo(wo));
         }
         params.validate()?;
-        if !(wo.z > 0.0) {
+        if !is_above_horizon(wo) {
             return Ok([0.0; 3]);
         }
         let rho = exact::directional(params.roughness(), wo);

@@ -1,7 +1,7 @@
 //! The reciprocal retro-reflective lobe of the MaterialX proposal.
 
 use crate::compensation::Compensation;
-use crate::disk::{Disk, HORIZON, above_horizon};
+use crate::disk::{Disk, above_horizon, is_above_horizon};
 use crate::{Lobe, LobeKind, LobeVisitor, ParamError, Params, Real, Sample, Vec3};
 
 /// The BSDF of the `retro_reflective_bsdf` node: Edwards' lobe made reciprocal, plus the compensation of the energy
@@ -62,13 +62,15 @@ impl<T: Real> Reciprocal<T> {
     #[inline(always)]
     fn split(&self, loss: T) -> Split<T> {
         let kept = T::ONE - loss;
-        let energy = self.single * kept + self.multiple * loss;
+        let energy = self.multiple + (self.single - self.multiple) * kept;
         // With as much tint as compensation, base = 0 and slope = 1 make f cos itself the density of what is kept.
         // More tint keeps some of the rejected samples, less tint rejects some of the accepted ones.
         let (lesser, greater) = (self.single.lesser(self.multiple), self.single.greater(self.multiple));
         let slope = (lesser / energy.greater(T::from_f64(1e-30))).lesser(T::ONE);
-        let base = if self.single < greater { T::ZERO } else { T::ONE - slope };
-        Split { base, slope, multiple: (T::ONE - base - slope * kept).greater(T::ZERO) }
+        let less_tint = self.single < greater;
+        let base = if less_tint { T::ZERO } else { T::ONE - slope };
+        let rejected = if less_tint { T::ONE - slope } else { T::ZERO };
+        Split { base, slope, multiple: rejected + slope * loss }
     }
 
     /// BSDF and density for two directions above the horizon, given the lump B.
@@ -117,7 +119,7 @@ impl<T: Real> Reciprocal<T> {
         wo: Vec3<T>,
         [u1, u2, u3]: [T; 3],
     ) -> Option<Sample<T>> {
-        if !(wo.z > T::from_f64(HORIZON)) {
+        if !is_above_horizon(wo) {
             return None;
         }
         let Some(disk) = &self.disk else {
@@ -194,7 +196,7 @@ impl<T: Real> Lobe<T> for Reciprocal<T> {
 
     #[inline]
     fn albedo(&self, wo: Vec3<T>) -> [T; 3] {
-        if !(wo.z > T::ZERO) {
+        if !is_above_horizon(wo) {
             return [T::ZERO; 3];
         }
         let loss = if self.disk.is_some() { self.compensation.loss::<false>(wo) } else { T::ZERO };

@@ -127,7 +127,7 @@ fn p_value(
     let (mut statistic, mut freedom) = (0.0, -1.0);
     let mut table = String::from("observed,expected\n");
     for (&observed, &expected) in observed.iter().zip(&expected) {
-        writeln!(table, "{observed},{expected}").unwrap();
+        writeln!(table, "{observed},{expected}").expect("a String can be written to");
         if expected < 10.0 {
             pooled_observed += observed;
             pooled_expected += expected;
@@ -146,11 +146,11 @@ fn p_value(
             "{name}: {pooled_observed} samples where {pooled_expected} are expected"
         );
     }
-    let p = ChiSquared::new(freedom).unwrap().sf(statistic);
+    let p = ChiSquared::new(freedom).expect("there are cells").sf(statistic);
     if p < limit {
         let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../target/evidence");
-        std::fs::create_dir_all(folder).unwrap();
-        std::fs::write(format!("{folder}/chi2_{name}.csv"), table).unwrap();
+        std::fs::create_dir_all(folder).expect("target can be written to");
+        std::fs::write(format!("{folder}/chi2_{name}.csv"), table).expect("target can be written to");
     }
     p
 }
@@ -164,11 +164,11 @@ fn check(model: Model, cases: &[([f64; 2], f64, f64)], single_precision: bool) {
         let params = Params::anisotropic(roughness_u, roughness_v)
             .with_tint([tint; 3])
             .with_multiscatter_tint([multiscatter_tint; 3]);
-        let lobe = AnyLobe::<f64>::new(model, &params).unwrap();
+        let lobe = AnyLobe::<f64>::new(model, &params).expect("legal parameters");
         let params = Params::anisotropic(roughness_u as f32, roughness_v as f32)
             .with_tint([tint as f32; 3])
             .with_multiscatter_tint([multiscatter_tint as f32; 3]);
-        let lobe_f32 = AnyLobe::<f32>::new(model, &params).unwrap();
+        let lobe_f32 = AnyLobe::<f32>::new(model, &params).expect("legal parameters");
         for &wo in &directions {
             let draw = |_| {
                 if single_precision {

@@ -5,7 +5,7 @@
 use core::f64::consts::{FRAC_PI_2, PI};
 
 use super::gauss::Gauss;
-use crate::disk::DIRAC_ROUGHNESS;
+use crate::disk::{DIRAC_ROUGHNESS, above_horizon, is_above_horizon};
 use crate::{Real, Vec3, width};
 
 /// The quadrature rules, prepared once for many evaluations.
@@ -123,7 +123,7 @@ fn widths([roughness_u, roughness_v]: [f64; 2]) -> Option<[f64; 2]> {
 /// 0 below the horizon, 1 where both roughnesses make a Dirac lobe.
 #[must_use]
 pub fn directional(roughness: [f64; 2], wo: Vec3<f64>) -> f64 {
-    if !(wo.z > 0.0) {
+    if !is_above_horizon(wo) {
         return 0.0;
     }
     widths(roughness).map_or(1.0, |m| 1.0 - Quadrature::new().loss(m, [wo.x, wo.y]))
@@ -141,7 +141,7 @@ pub fn average(roughness: [f64; 2]) -> f64 {
 #[must_use]
 pub fn compensation(roughness: [f64; 2], wo: Vec3<f64>, wi: Vec3<f64>) -> f64 {
     let Some(m) = widths(roughness) else { return 0.0 };
-    if !(wo.z > 0.0 && wi.z > 0.0) {
+    if !above_horizon(wo, wi) {
         return 0.0;
     }
     let rule = Quadrature::new();

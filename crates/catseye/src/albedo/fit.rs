@@ -119,7 +119,7 @@ impl<T: Real, const A: usize, const B: usize, const C: usize, const D: usize> Fi
 impl<T: Real> FastFit<T> {
     /// A vector given along the wider and the narrower axis, in the local frame.
     #[inline(always)]
-    pub(crate) fn from_axes(&self, [wider, narrower]: [T; 2]) -> [T; 2] {
+    pub(crate) fn in_frame(&self, [wider, narrower]: [T; 2]) -> [T; 2] {
         if self.e_x < self.e_y { [narrower, wider] } else { [wider, narrower] }
     }
 
@@ -174,7 +174,7 @@ impl<T: Real> Ray<T> {
         }
         let mut cumulated = density;
         for (j, c) in cumulated.iter_mut().enumerate() {
-            *c = *c * T::from_f64(1.0 / (j + 1) as f64);
+            *c *= T::from_f64(1.0 / (j + 1) as f64);
         }
         Self { density, cumulated, first, range }
     }
@@ -208,13 +208,13 @@ fn substitute<T: Real, const N: usize>(p: &[T; N], start: T, range: T) -> [T; N]
     let mut q = *p;
     for i in 0..N - 1 {
         for j in (i..N - 1).rev() {
-            q[j] = q[j] + start * q[j + 1];
+            q[j] += start * q[j + 1];
         }
     }
     let mut power = T::ONE;
     for c in &mut q {
-        *c = *c * power;
-        power = power * range;
+        *c *= power;
+        power *= range;
     }
     q
 }

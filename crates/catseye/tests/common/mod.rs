@@ -1,5 +1,10 @@
 //! What several tests share: fixed random numbers, directions, and the cases.
-#![allow(dead_code, clippy::allow_attributes, reason = "each test uses a part of it")]
+#![allow(
+    dead_code,
+    unreachable_pub,
+    clippy::allow_attributes,
+    reason = "each test is a crate of its own and uses a part of it"
+)]
 
 use catseye::Vec3;
 use std::f64::consts::TAU;
