@@ -38,16 +38,16 @@ pub(crate) struct Disk<T> {
     pub(crate) m_v: T,
     inv_m_u: T,
     inv_m_v: T,
-    /// `1 / (2 pi m_u m_v)`.
-    norm: T,
+    /// `1 / (2 pi m_u m_v) = sqrt((n_u+1)(n_v+1)) / (2 pi)`, the factor of B.
+    pub(crate) norm: T,
 }
 
 /// A disk offset drawn from the distribution.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DiskSample<T> {
     pub(crate) wi: Vec3<T>,
-    /// B for the pair of directions, exact for the drawn offset where `wi` has been rounded.
-    pub(crate) lump: T,
+    /// [`Disk::power`] of the pair of directions, exact for the drawn offset where `wi` has been rounded.
+    pub(crate) power: T,
 }
 
 impl<T: Real> Disk<T> {
@@ -63,13 +63,13 @@ impl<T: Real> Disk<T> {
         Some(Self { m_u, m_v, inv_m_u: T::ONE / m_u, inv_m_v: T::ONE / m_v, norm })
     }
 
-    /// `B = sqrt((n_u+1)(n_v+1)) / (2 pi) * (1-|d|^2)^(n+1)` for two directions above the horizon.
+    /// The power `(1-|d|^2)^(n+1)` for two directions above the horizon: B is it times [`Disk::norm`].
     ///
     /// With `e = (d_x/m_u, d_y/m_v)` the power is `exp(|e|^2 / |d|^2 ln(1-|d|^2))`: a Gaussian with a correction that
     /// tends to 1 for small d. In the isotropic case the first quotient is the constant `n + 1`. Everything is scaled
     /// by `z_o + z_i`, which spares a division.
     #[inline(always)]
-    pub(crate) fn lump<const ISOTROPIC: bool>(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
+    pub(crate) fn power<const ISOTROPIC: bool>(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
         // d (z_o + z_i) = z_o i_xy - z_i o_xy, written with differences that are exact near the retro direction
         // (Sterbenz), where the lobe lives.
         let dz = wi.z - wo.z;
@@ -88,7 +88,7 @@ impl<T: Real> Disk<T> {
             let (ex, ey) = (dx * self.inv_m_u, dy * self.inv_m_v);
             (ex * ex + ey * ey) / d2.greater(tiny)
         };
-        self.norm * (exponent * d2.log2_quotient(part.greater(tiny), whole)).exp2_falling()
+        d2.log2_power(exponent, part.greater(tiny), whole).exp2_falling()
     }
 
     /// Draws an offset d from the distribution and reflects `wo` about the half vector `(o_xy + d, z_o)`.
@@ -102,7 +102,7 @@ impl<T: Real> Disk<T> {
         let m2 = ex * ex + ey * ey;
         let rest = T::ONE - u2;
         let d2 = -(u2.ln_one_minus(rest) * m2).exp_m1_falling();
-        let scale = (d2 / m2).sqrt();
+        let scale = (d2 * (T::ONE / m2)).sqrt();
         let (dx, dy) = (ex * scale, ey * scale);
         // i = 2 (o.h)/(h.h) h - o, arranged as o plus a small step so that narrow lobes keep their digits.
         let (hx, hy) = (wo.x + dx, wo.y + dy);
@@ -115,6 +115,6 @@ impl<T: Real> Disk<T> {
             wo.y + (k * dy + step * wo.y),
             wo.z * (T::ONE - d2) * inv,
         );
-        DiskSample { wi, lump: self.norm * rest }
+        DiskSample { wi, power: rest }
     }
 }

@@ -42,7 +42,7 @@ impl<T: Real> Lobe<T> for Edwards<T> {
         if !above_horizon(wo, wi) {
             return ([T::ZERO; 3], T::ZERO);
         }
-        let pdf = disk.lump::<false>(wo, wi) * wo.z / (wi.z * (wo.z + wi.z));
+        let pdf = disk.power::<false>(wo, wi) * (disk.norm * wo.z / (wi.z * (wo.z + wi.z)));
         (self.tint.map(|t| t * pdf / wi.z), pdf)
     }
 
@@ -58,7 +58,7 @@ impl<T: Real> Lobe<T> for Edwards<T> {
         if !above_horizon(wo, drawn.wi) {
             return None;
         }
-        let pdf = drawn.lump * wo.z / (drawn.wi.z * (wo.z + drawn.wi.z));
+        let pdf = drawn.power * (disk.norm * wo.z / (drawn.wi.z * (wo.z + drawn.wi.z)));
         Some(Sample { wi: drawn.wi, weight: self.tint, pdf, lobe: LobeKind::Single })
     }
 

@@ -71,9 +71,10 @@ pub trait Real:
     /// result is computed where `self` is near 1.
     #[must_use]
     fn ln_one_minus(self, complement: Self) -> Self;
-    /// `log2(part / whole)` for `self = whole - part`, accurate where the quotient is near 1 and where it is small.
+    /// `exponent * log2(part / whole)` for `self = whole - part`, accurate where the quotient is near 1 and where it is
+    /// small.
     #[must_use]
-    fn log2_quotient(self, part: Self, whole: Self) -> Self;
+    fn log2_power(self, exponent: Self, part: Self, whole: Self) -> Self;
     /// Sine and cosine of an angle in radians.
     fn sin_cos(self) -> (Self, Self);
     /// Sine and cosine of an angle in turns, in `[0, 1]`.
@@ -164,8 +165,8 @@ impl Real for f64 {
         }
     }
     #[inline(always)]
-    fn log2_quotient(self, part: Self, whole: Self) -> Self {
-        Real::ln_one_minus(self / whole, part / whole) * core::f64::consts::LOG2_E
+    fn log2_power(self, exponent: Self, part: Self, whole: Self) -> Self {
+        exponent * Real::ln_one_minus(self / whole, part / whole) * core::f64::consts::LOG2_E
     }
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
@@ -227,8 +228,8 @@ impl Real for f32 {
         f32_math::ln_one_minus(self, complement)
     }
     #[inline(always)]
-    fn log2_quotient(self, part: Self, whole: Self) -> Self {
-        f32_math::log2_quotient(self, part, whole)
+    fn log2_power(self, exponent: Self, part: Self, whole: Self) -> Self {
+        f32_math::log2_power(exponent, self, part, whole)
     }
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {

@@ -73,23 +73,26 @@ impl<T: Real> Reciprocal<T> {
         Split { base, slope, multiple: rejected + slope * loss }
     }
 
-    /// BSDF and density for two directions above the horizon, given the lump B.
+    /// BSDF and density for two directions above the horizon, given the disk's power for them.
     #[inline(always)]
     fn eval_pdf_with<const COMPENSATED: bool, const ISOTROPIC: bool>(
         &self,
-        lump: T,
+        norm: T,
+        power: T,
         wo: Vec3<T>,
         wi: Vec3<T>,
     ) -> ([T; 3], T) {
-        // All quotients come from one division, in factors that stay in range: low / high^2 and z_o / z_i.
+        // All quotients come from one division, in factors that stay in range: low / high^2 and z_o / z_i. They are
+        // finished while the power is still being computed, which therefore comes last in each product.
         let (sum, product, low) = (wo.z + wi.z, wo.z * wi.z, wo.z.lesser(wi.z));
         let inv = T::ONE / (sum * product);
-        let (inv_sum, inv_product) = (inv * product, inv * sum);
-        let f = lump * (inv_sum * (low * low * inv_product) * (low * inv_product));
-        let pdf_single = lump * (inv_sum * (wo.z * wo.z * inv_product));
+        let (scale, inv_product) = (norm * (inv * product), inv * sum);
+        let f_scale = scale * (low * low * inv_product) * (low * inv_product);
+        let pdf_single = (scale * (wo.z * wo.z * inv_product)) * power;
         if !COMPENSATED {
-            return (self.tint.map(|t| t * f), pdf_single);
+            return (self.tint.map(|t| (t * f_scale) * power), pdf_single);
         }
+        let f = f_scale * power;
         let loss_o = self.compensation.loss::<ISOTROPIC>(wo);
         let q = self.compensation.lobe::<ISOTROPIC>(wi);
         let split = self.split(loss_o);
@@ -110,7 +113,7 @@ impl<T: Real> Reciprocal<T> {
         if !above_horizon(wo, wi) {
             return ([T::ZERO; 3], T::ZERO);
         }
-        self.eval_pdf_with::<COMPENSATED, ISOTROPIC>(disk.lump::<ISOTROPIC>(wo, wi), wo, wi)
+        self.eval_pdf_with::<COMPENSATED, ISOTROPIC>(disk.norm, disk.power::<ISOTROPIC>(wo, wi), wo, wi)
     }
 
     #[inline(always)]
@@ -133,7 +136,7 @@ impl<T: Real> Reciprocal<T> {
             if !above_horizon(wo, drawn.wi) {
                 return None;
             }
-            let pdf = drawn.lump * wo.z / (drawn.wi.z * (wo.z + drawn.wi.z));
+            let pdf = drawn.power * (disk.norm * wo.z / (drawn.wi.z * (wo.z + drawn.wi.z)));
             let weight = self.tint.map(|t| t * (ratio * ratio * ratio));
             return Some(Sample { wi: drawn.wi, weight, pdf, lobe });
         }
@@ -142,13 +145,13 @@ impl<T: Real> Reciprocal<T> {
         if u3 >= keep {
             let fresh = ((u3 - keep) / (T::ONE - keep)).lesser(T::ONE);
             drawn.wi = self.compensation.sample::<ISOTROPIC>(fresh, u1);
-            drawn.lump = disk.lump::<ISOTROPIC>(wo, drawn.wi);
+            drawn.power = disk.power::<ISOTROPIC>(wo, drawn.wi);
             lobe = LobeKind::Multiple;
         }
         if !above_horizon(wo, drawn.wi) {
             return None;
         }
-        let (f, pdf) = self.eval_pdf_with::<COMPENSATED, ISOTROPIC>(drawn.lump, wo, drawn.wi);
+        let (f, pdf) = self.eval_pdf_with::<COMPENSATED, ISOTROPIC>(disk.norm, drawn.power, wo, drawn.wi);
         let scale = drawn.wi.z / pdf;
         Some(Sample { wi: drawn.wi, weight: f.map(|f| f * scale), pdf, lobe })
     }
