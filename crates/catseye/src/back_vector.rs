@@ -79,16 +79,6 @@ impl<T: Real> BackVector<T> {
 
 impl<T: Real> Lobe<T> for BackVector<T> {
     #[inline(always)]
-    fn eval(&self, wo: Vec3<T>, wi: Vec3<T>) -> [T; 3] {
-        self.eval_pdf(wo, wi).0
-    }
-
-    #[inline(always)]
-    fn pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
-        self.eval_pdf(wo, wi).1
-    }
-
-    #[inline(always)]
     fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> ([T; 3], T) {
         if self.dirac || !above_horizon(wo, wi) {
             return ([T::ZERO; 3], T::ZERO);

@@ -40,19 +40,23 @@ pub struct Sample<T> {
 
 /// A BSDF lobe in the local frame.
 pub trait Lobe<T: Real> {
-    /// The BSDF f(wo, wi) in 1/sr per channel, cosine not included. 0 below the horizon and for a Dirac lobe.
+    /// The BSDF f(wo, wi) in 1/sr per channel, cosine not included, and the density, per steradian, with which
+    /// [`Lobe::sample`] chooses `wi`. Both are 0 below the horizon and for a Dirac lobe.
     #[must_use]
-    fn eval(&self, wo: Vec3<T>, wi: Vec3<T>) -> [T; 3];
+    fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> ([T; 3], T);
 
-    /// Density, per steradian, with which [`Lobe::sample`] chooses `wi`. 0 below the horizon and for a Dirac lobe.
+    /// The BSDF alone, as in [`Lobe::eval_pdf`].
     #[must_use]
-    fn pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> T;
+    #[inline(always)]
+    fn eval(&self, wo: Vec3<T>, wi: Vec3<T>) -> [T; 3] {
+        self.eval_pdf(wo, wi).0
+    }
 
-    /// `eval` and `pdf` at once, for less than their sum.
+    /// The density alone, as in [`Lobe::eval_pdf`].
     #[must_use]
-    #[inline]
-    fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> ([T; 3], T) {
-        (self.eval(wo, wi), self.pdf(wo, wi))
+    #[inline(always)]
+    fn pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
+        self.eval_pdf(wo, wi).1
     }
 
     /// A direction chosen by three uniform numbers in `[0, 1)`; `None` if `wo` is below the horizon or not a

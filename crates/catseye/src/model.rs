@@ -87,14 +87,6 @@ macro_rules! forward {
 }
 
 impl<T: Real> Lobe<T> for AnyLobe<T> {
-    fn eval(&self, wo: Vec3<T>, wi: Vec3<T>) -> [T; 3] {
-        forward!(self, lobe => lobe.eval(wo, wi))
-    }
-
-    fn pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
-        forward!(self, lobe => lobe.pdf(wo, wi))
-    }
-
     fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> ([T; 3], T) {
         forward!(self, lobe => lobe.eval_pdf(wo, wi))
     }

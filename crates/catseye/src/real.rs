@@ -55,9 +55,6 @@ pub trait Real:
     /// The square root.
     #[must_use]
     fn sqrt(self) -> Self;
-    /// The absolute value.
-    #[must_use]
-    fn abs(self) -> Self;
     /// The fractional part of a value in `[0, 2^22)`.
     #[must_use]
     fn fract(self) -> Self;
@@ -141,10 +138,6 @@ impl Real for f64 {
         math!(self.sqrt(), libm::sqrt(self))
     }
     #[inline(always)]
-    fn abs(self) -> Self {
-        self.abs()
-    }
-    #[inline(always)]
     fn fract(self) -> Self {
         math!(self.fract(), self - libm::trunc(self))
     }
@@ -206,10 +199,6 @@ impl Real for f32 {
     #[inline(always)]
     fn sqrt(self) -> Self {
         math!(self.sqrt(), libm::sqrtf(self))
-    }
-    #[inline(always)]
-    fn abs(self) -> Self {
-        self.abs()
     }
     #[inline(always)]
     fn fract(self) -> Self {

@@ -168,16 +168,6 @@ struct Form<T, const COMPENSATED: bool, const ISOTROPIC: bool>(Reciprocal<T>);
 
 impl<T: Real> Lobe<T> for Reciprocal<T> {
     #[inline(always)]
-    fn eval(&self, wo: Vec3<T>, wi: Vec3<T>) -> [T; 3] {
-        self.eval_pdf(wo, wi).0
-    }
-
-    #[inline(always)]
-    fn pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
-        self.eval_pdf(wo, wi).1
-    }
-
-    #[inline(always)]
     fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> ([T; 3], T) {
         match (self.is_compensated(), self.compensation.is_isotropic()) {
             (false, true) => self.eval_pdf_as::<false, true>(wo, wi),
@@ -223,16 +213,6 @@ impl<T: Real> Lobe<T> for Reciprocal<T> {
 }
 
 impl<T: Real, const COMPENSATED: bool, const ISOTROPIC: bool> Lobe<T> for Form<T, COMPENSATED, ISOTROPIC> {
-    #[inline(always)]
-    fn eval(&self, wo: Vec3<T>, wi: Vec3<T>) -> [T; 3] {
-        self.eval_pdf(wo, wi).0
-    }
-
-    #[inline(always)]
-    fn pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
-        self.eval_pdf(wo, wi).1
-    }
-
     #[inline(always)]
     fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> ([T; 3], T) {
         self.0.eval_pdf_as::<COMPENSATED, ISOTROPIC>(wo, wi)

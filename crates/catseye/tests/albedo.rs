@@ -1,19 +1,11 @@
 //! The albedo in its three forms: closed-form values, the reference's numbers, and the fits' stated error bounds.
 
+mod common;
+
 use catseye::albedo::exact::{self, Quadrature};
 use catseye::albedo::{CompactFit, FastFit};
 use catseye::{Vec3, width};
-
-/// Halton sequence in the given base: fixed, even samples.
-fn halton(mut index: u32, base: u32) -> f64 {
-    let (mut value, mut scale) = (0.0, 1.0);
-    while index > 0 {
-        scale /= f64::from(base);
-        value += scale * f64::from(index % base);
-        index /= base;
-    }
-    value
-}
+use common::Random;
 
 /// Roughness over its whole range, also 0 and infinity.
 fn roughness(u: f64) -> f64 {
@@ -52,16 +44,15 @@ fn closed_forms() {
 #[test]
 fn fits_keep_their_bounds() {
     let rule = Quadrature::new();
+    let mut random = Random(17);
     let mut worst = [0.0_f64; 4];
     for i in 1..6000 {
         let isotropic = i % 3 == 0;
-        let m_u = width(roughness(halton(i, 2)).max(1e-4));
-        let m_v = if isotropic { m_u } else { width(roughness(halton(i, 3)).max(1e-4)) };
-        let sin = if i % 2 == 0 { halton(i, 5) } else { halton(i, 5).sqrt() };
-        let (x, y) = (
-            sin * (std::f64::consts::TAU * halton(i, 7)).cos(),
-            sin * (std::f64::consts::TAU * halton(i, 7)).sin(),
-        );
+        let m_u = width(roughness(random.uniform()).max(1e-4));
+        let m_v = if isotropic { m_u } else { width(roughness(random.uniform()).max(1e-4)) };
+        let sine = if i % 2 == 0 { random.uniform() } else { random.uniform().sqrt() };
+        let (sin, cos) = (std::f64::consts::TAU * random.uniform()).sin_cos();
+        let (x, y) = (sine * cos, sine * sin);
         let exact = rule.loss([m_u, m_v], [x, y]);
         let fast = FastFit::fast([m_u, m_v]).loss(x, y);
         let compact = CompactFit::compact([m_u, m_v]).loss(x, y);

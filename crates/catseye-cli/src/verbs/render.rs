@@ -42,7 +42,7 @@ pub(crate) struct Args {
     #[arg(long, value_name = "WxH", default_value = "960x540", value_parser = parse_size)]
     size: (usize, usize),
     /// Samples per pixel: four times as many halve the noise
-    #[arg(long, value_name = "N", default_value_t = 32, value_parser = clap::value_parser!(u32).range(1..))]
+    #[arg(long, value_name = "N", default_value_t = RenderSettings::default().spp, value_parser = clap::value_parser!(u32).range(1..))]
     spp: u32,
     /// Another number gives other noise
     #[arg(long, value_name = "N", default_value_t = 0)]

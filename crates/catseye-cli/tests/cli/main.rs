@@ -6,5 +6,6 @@ mod csv_contract;
 mod furnace_table;
 mod help;
 mod plots;
+mod readme;
 mod render_files;
 mod run;
