@@ -1,7 +1,5 @@
-//! Chores.
-mod fit_albedo;
+//! `cargo xtask`: see the library of the same name.
+
 fn main() -> anyhow::Result<()> {
-    let text = fit_albedo::generate()?;
-    std::fs::write(fit_albedo::OUTPUT, text)?;
-    Ok(())
+    xtask::run()
 }
