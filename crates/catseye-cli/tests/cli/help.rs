@@ -1,6 +1,6 @@
 //! Every verb explains itself, and its examples run and print what they show.
 
-use crate::run::{Bench, output};
+use crate::run::{Bench, alike, output};
 
 const VERBS: [&str; 8] =
     ["render", "furnace", "eval", "sample", "albedo", "plot", "plot lobe", "plot albedo"];
@@ -37,15 +37,4 @@ fn every_example_prints_what_it_shows() {
         let printed: Vec<&str> = outcome.stdout.lines().map(str::trim).collect();
         assert!(alike(&expected.join("\n"), &printed.join("\n")), "{command}\n{}", outcome.stdout);
     }
-}
-
-/// Equal texts; numbers up to the rounding that another machine's mathematical functions may do.
-fn alike(a: &str, b: &str) -> bool {
-    let words = |text: &str| text.split([',', '\n', ' ']).map(str::to_owned).collect::<Vec<_>>();
-    let same = |(a, b): (&String, &String)| match (a.parse::<f64>(), b.parse::<f64>()) {
-        (Ok(a), Ok(b)) => (a - b).abs() <= 1e-9 * a.abs(),
-        _ => a == b,
-    };
-    let (a, b) = (words(a), words(b));
-    a.len() == b.len() && a.iter().zip(&b).all(same)
 }

@@ -95,3 +95,14 @@ pub(crate) fn column(text: &str, name: &str) -> Vec<f64> {
         rows[0].iter().position(|&other| other == name).unwrap_or_else(|| panic!("no {name} in {text}"));
     rows[1..].iter().map(|row| row[field].parse().unwrap()).collect()
 }
+
+/// Equal texts; numbers up to the rounding that another machine's mathematical functions may do.
+pub(crate) fn alike(a: &str, b: &str) -> bool {
+    let words = |text: &str| text.split([',', ':', '}', ' ', '\n']).map(str::to_owned).collect::<Vec<_>>();
+    let same = |(a, b): (&String, &String)| match (a.parse::<f64>(), b.parse::<f64>()) {
+        (Ok(x), Ok(y)) => a == b || (x - y).abs() <= 1e-9 * x.abs(),
+        _ => a == b,
+    };
+    let (a, b) = (words(a), words(b));
+    a.len() == b.len() && a.iter().zip(&b).all(same)
+}
