@@ -70,6 +70,11 @@ impl<T: Real> Compensation<T> {
         self.fit.isotropic
     }
 
+    /// `1 - rho_avg`.
+    pub(crate) fn average_loss(&self) -> T {
+        T::FRAC_1_PI / self.norm
+    }
+
     /// The share `1 - rho` that single scattering loses along w.
     #[inline(always)]
     pub(crate) fn loss<const ISOTROPIC: bool>(&self, w: Vec3<T>) -> T {

@@ -6,7 +6,7 @@ use crate::{Real, Vec3};
 pub const DIRAC_ROUGHNESS: f64 = 1e-4;
 
 /// Cosine below which a direction counts as below the horizon, so that quotients of cosines stay finite in `f32`.
-const HORIZON: f64 = 1e-12;
+const HORIZON: f64 = 1e-9;
 
 /// Whether the direction is above the horizon. False for NaN.
 #[inline(always)]

@@ -58,6 +58,20 @@ impl<T: Real> Reciprocal<T> {
         })
     }
 
+    /// The cosine-weighted hemispherical mean of [`Lobe::albedo`], per channel: the share of diffuse light that is
+    /// reflected. As exact as the fit that it is the integral of.
+    #[must_use]
+    pub fn average_albedo(&self) -> [T; 3] {
+        let loss = if self.disk.is_some() { self.compensation.average_loss() } else { T::ZERO };
+        self.tinted(loss)
+    }
+
+    /// The albedo per channel where single scattering loses the share `loss`.
+    fn tinted(&self, loss: T) -> [T; 3] {
+        let [t, m] = [self.tint, self.multiscatter_tint];
+        [0, 1, 2].map(|c| t[c] * (T::ONE - loss) + m[c] * loss)
+    }
+
     /// The split for a direction that loses the share `loss`: in proportion to the energy of both lobes.
     #[inline(always)]
     fn split(&self, loss: T) -> Split<T> {
@@ -82,17 +96,16 @@ impl<T: Real> Reciprocal<T> {
         wo: Vec3<T>,
         wi: Vec3<T>,
     ) -> ([T; 3], T) {
-        // All quotients come from one division, in factors that stay in range: low / high^2 and z_o / z_i. They are
-        // finished while the power is still being computed, which therefore comes last in each product.
+        // All quotients come from one division, in factors that stay in range; low / high^2 is
+        // low sum (low / product)^2 / sum. They are finished while the power is still being computed.
         let (sum, product, low) = (wo.z + wi.z, wo.z * wi.z, wo.z.lesser(wi.z));
         let inv = T::ONE / (sum * product);
-        let (scale, inv_product) = (norm * (inv * product), inv * sum);
-        let f_scale = scale * (low * low * inv_product) * (low * inv_product);
-        let pdf_single = (scale * (wo.z * wo.z * inv_product)) * power;
+        let steep = low * inv;
+        let f = power * (norm * (low * sum) * (steep * steep));
+        let pdf_single = power * (norm * inv * (wo.z * wo.z));
         if !COMPENSATED {
-            return (self.tint.map(|t| (t * f_scale) * power), pdf_single);
+            return (self.tint.map(|t| t * f), pdf_single);
         }
-        let f = f_scale * power;
         let loss_o = self.compensation.loss::<ISOTROPIC>(wo);
         let q = self.compensation.lobe::<ISOTROPIC>(wi);
         let split = self.split(loss_o);
@@ -193,8 +206,7 @@ impl<T: Real> Lobe<T> for Reciprocal<T> {
             return [T::ZERO; 3];
         }
         let loss = if self.disk.is_some() { self.compensation.loss::<false>(wo) } else { T::ZERO };
-        let [t, m] = [self.tint, self.multiscatter_tint];
-        [0, 1, 2].map(|c| t[c] * (T::ONE - loss) + m[c] * loss)
+        self.tinted(loss)
     }
 
     fn is_dirac(&self) -> bool {

@@ -85,6 +85,18 @@ fn single_scattering_returns_the_exact_albedo() {
 }
 
 #[test]
+fn average_albedo_is_the_mean_over_the_hemisphere() {
+    for roughness in ROUGHNESS {
+        let lobe =
+            Reciprocal::new(&Params::anisotropic(roughness[0], roughness[1]).with_tint([1.0, 0.5, 0.0]))
+                .unwrap();
+        let (found, exact) = (lobe.average_albedo(), exact::average(roughness));
+        assert!((found[0] - exact).abs() < 3e-4, "{roughness:?}: {found:?} for {exact}");
+        assert!((found[1] - 0.5 * found[0]).abs() < 1e-12 && found[2] == 0.0);
+    }
+}
+
+#[test]
 fn edwards_returns_everything() {
     for roughness in ROUGHNESS {
         let lobe = Edwards::new(&Params::anisotropic(roughness[0], roughness[1])).unwrap();
