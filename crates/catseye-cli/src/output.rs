@@ -52,6 +52,9 @@ fn refuse_unwritable(path: &Path) -> io::Result<()> {
         }
     }
     let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    if !folder.is_dir() {
+        return Err(io::Error::other(format!("there is no folder {}", folder.display())));
+    }
     // The error's own text names the temporary file, which would puzzle everyone.
     tempfile::tempfile_in(folder).map_err(|error| io::Error::from(error.kind()))?;
     Ok(())

@@ -150,7 +150,8 @@ impl Row<'_> {
     /// A library's complaint about the parameters, as one about a column.
     pub(crate) fn out_of_range(error: &catseye::ParamError) -> RowError {
         let channel = error.channel().map_or("", |channel| ["_r", "_g", "_b"][channel]);
-        RowError::cell(&format!("{}{channel}", error.name()), error.to_string())
+        let (value, range) = error.value_and_range();
+        RowError::cell(&format!("{}{channel}", error.name()), format!("{value} is outside {range}"))
     }
 
     /// The direction towards the viewer.

@@ -126,6 +126,12 @@ impl ParamError {
     pub fn channel(&self) -> Option<usize> {
         self.channel
     }
+
+    /// The value, and the range it is outside of in the notation `[0, 1]`.
+    #[must_use]
+    pub fn value_and_range(&self) -> (f64, &'static str) {
+        (self.value, self.range)
+    }
 }
 
 impl fmt::Display for ParamError {

@@ -25,10 +25,10 @@ fn a_bad_cell_is_named_with_line_column_and_value() {
         ("nan,1,1,1,0,0,1,0,0,1", "column roughness_u: \"nan\" is not a number"),
         ("x,1,1,1,0,0,1,0,0,1", "column roughness_u: \"x\" is not a number"),
         (" ,1,1,1,0,0,1,0,0,1", "column roughness_u: is empty"),
-        ("-0.5,1,1,1,0,0,1,0,0,1", "column roughness_u: roughness_u is -0.5, outside [0, inf]"),
-        ("1,-inf,1,1,0,0,1,0,0,1", "column roughness_v: roughness_v is -inf, outside [0, inf]"),
-        ("1,1,1.5,1,0,0,1,0,0,1", "column tint_r: tint[0] is 1.5, outside [0, 1]"),
-        ("1,1,1,-1,0,0,1,0,0,1", "column multiscatter_tint_b: multiscatter_tint[2] is -1, outside [0, 1]"),
+        ("-0.5,1,1,1,0,0,1,0,0,1", "column roughness_u: -0.5 is outside [0, inf]"),
+        ("1,-inf,1,1,0,0,1,0,0,1", "column roughness_v: -inf is outside [0, inf]"),
+        ("1,1,1.5,1,0,0,1,0,0,1", "column tint_r: 1.5 is outside [0, 1]"),
+        ("1,1,1,-1,0,0,1,0,0,1", "column multiscatter_tint_b: -1 is outside [0, 1]"),
         ("1,1,1,1,0,NaN,1,0,0,1", "column wo_y: \"NaN\" is not a number"),
         ("1,1,1,1,0,0,1,0,0,inf", "column wi_z: inf is not finite"),
         ("1,1,1,1,0,0,,0,0,1", "column wo_z: is empty"),
@@ -149,7 +149,7 @@ fn the_gpu_backend_says_that_it_is_not_there() {
 fn options_out_of_range_are_named_without_a_line() {
     let (code, message) = fails("albedo --roughness=-1 --wo 0,0,1", "");
     assert_eq!(code, 1);
-    assert_eq!(message, "catseye: command line: column roughness_u: roughness_u is -1, outside [0, inf]");
+    assert_eq!(message, "catseye: command line: column roughness_u: -1 is outside [0, inf]");
 }
 
 #[cfg(unix)]
