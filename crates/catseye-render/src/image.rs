@@ -1,5 +1,7 @@
 //! Pictures in linear light.
 
+use crate::ToneMap;
+
 /// A picture: linear Rec. 709 radiance, rows from the top.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Image {
@@ -67,6 +69,31 @@ impl Image {
             let from = y * other.width;
             self.pixels[to..to + columns].copy_from_slice(&other.pixels[from..from + columns]);
         }
+    }
+
+    /// The picture as the screen shows it, still linear: with glare, through the tone curve.
+    #[must_use]
+    pub fn toned(&self, tone_map: &ToneMap) -> Self {
+        let mut shown = self.with_glare(tone_map.glare);
+        shown.pixels.iter_mut().for_each(|pixel| *pixel = tone_map.apply(*pixel));
+        shown
+    }
+
+    /// The picture with each block of `factor` by `factor` pixels made one; what doesn't fill a block is dropped.
+    ///
+    /// # Panics
+    /// If the factor is 0.
+    #[must_use]
+    pub fn reduced(&self, factor: usize) -> Self {
+        let scale = 1.0 / (factor * factor) as f32;
+        Self::from_fn(self.width / factor, self.height / factor, |x, y| {
+            let mut sum = [0.0; 3];
+            for i in 0..factor * factor {
+                let pixel = self.pixel(x * factor + i % factor, y * factor + i / factor);
+                sum.iter_mut().zip(pixel).for_each(|(sum, value)| *sum += value);
+            }
+            sum.map(|s| s * scale)
+        })
     }
 
     /// The mean of all pixels, per channel; 0 for a picture without pixels.

@@ -14,8 +14,8 @@ use crate::{Error, Image, ToneMap};
 /// # Errors
 /// The file can't be written.
 pub fn write_png(image: &Image, tone_map: &ToneMap, path: &Path) -> Result<(), Error> {
-    let glaring = image.with_glare(tone_map.glare);
-    let bytes: Vec<u8> = glaring.pixels().iter().flat_map(|p| tone_map.apply(*p).map(encode_srgb)).collect();
+    let shown = image.toned(tone_map);
+    let bytes: Vec<u8> = shown.pixels().iter().flat_map(|pixel| pixel.map(encode_srgb)).collect();
     write_whole(path, |file| {
         let mut encoder = png::Encoder::new(file, image.width() as u32, image.height() as u32);
         encoder.set_color(png::ColorType::Rgb);
