@@ -10,7 +10,7 @@ use crate::tool::{cargo, output, run_cargo};
 /// The generated files are among the tests: see [`crate::generated`].
 pub(crate) fn run() -> Result<()> {
     lint::run()?;
-    run_cargo("test --workspace --doc --quiet")?;
+    run_cargo("test --workspace --doc")?;
     // nextest runs the tests of all crates at once and sums them up in one line; without it nothing else is lost.
     if output(&mut cargo("nextest --version")).is_some() {
         run_cargo("nextest run --workspace --no-fail-fast")
