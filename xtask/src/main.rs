@@ -1,7 +1,14 @@
 //! Chores.
 mod fit_albedo;
+mod shader_albedo;
 fn main() -> anyhow::Result<()> {
-    let text = fit_albedo::generate()?;
-    std::fs::write(fit_albedo::OUTPUT, text)?;
+    match std::env::args().nth(1).as_deref() {
+        Some("shaders") => {
+            for (path, text) in shader_albedo::files()? {
+                std::fs::write(path, text)?;
+            }
+        }
+        _ => std::fs::write(fit_albedo::OUTPUT, fit_albedo::generate()?)?,
+    }
     Ok(())
 }
