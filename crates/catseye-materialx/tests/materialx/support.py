@@ -2,6 +2,7 @@
 
 import os
 import pathlib
+import re
 import shutil
 import subprocess
 import sys
@@ -14,7 +15,8 @@ import MaterialX.PyMaterialXGenOsl as gen_osl
 import MaterialX.PyMaterialXGenShader as gen_shader
 import MaterialX.PyMaterialXGenSlang as gen_slang
 
-CRATE = pathlib.Path(__file__).resolve().parents[2]
+HERE = pathlib.Path(__file__).resolve().parent
+CRATE = HERE.parents[1]
 ROOT = CRATE.parents[1]
 LIBRARIES = CRATE / "libraries"
 MATERIALS = ROOT / "materials"
@@ -50,7 +52,8 @@ def data_library():
 
 
 def documents():
-    return sorted(MATERIALS.glob("*.mtlx"))
+    """The workspace's materials, and those that use what its reader does not know yet."""
+    return sorted([*MATERIALS.glob("*.mtlx"), *(HERE / "documents").glob("*.mtlx")])
 
 
 def read(path, library):
@@ -81,8 +84,6 @@ def generate(document, target, environment="FIS", lights=None):
     options.hwSpecularEnvironmentMethod = getattr(
         gen_shader.HwSpecularEnvironmentMethod, f"SPECULAR_ENVIRONMENT_{environment}")
     options.hwMaxActiveLightSources = 4
-    if target in ("vk", "essl"):
-        options.fileTextureVerticalFlip = True
     if lights is not None:
         lights(context, generator)
     return generator.generate("material", material(document), context)
@@ -90,7 +91,16 @@ def generate(document, target, environment="FIS", lights=None):
 
 def stages(shader):
     """The source of each stage, by name."""
-    return {name: shader.getSourceCode(name) for name in ("vertex", "pixel") if shader.hasStage(name)}
+    return {name: complete(shader.getSourceCode(name)) for name in ("vertex", "pixel") if shader.hasStage(name)}
+
+
+def complete(source):
+    """Without an environment MaterialX 1.39.5 does not declare u_refractionTwoSided, which its own refraction uses."""
+    name = "u_refractionTwoSided"
+    if not source.startswith("#version") or name not in source or re.search(rf"\w+ {name}( =|;)", source):
+        return source
+    version, rest = source.split("\n", 1)
+    return f"{version}\nconst bool {name} = false;\n{rest}"
 
 
 def tool(case, name):
