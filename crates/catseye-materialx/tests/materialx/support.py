@@ -78,15 +78,33 @@ def material(document):
 def generate(document, target, environment="FIS", lights=None):
     """The generated shader."""
     generator = GENERATORS[target].create()
+    colors = gen_shader.DefaultColorManagementSystem.create(generator.getTarget())
+    colors.loadLibrary(document.getDataLibrary())
+    generator.setColorManagementSystem(colors)
     context = gen_shader.GenContext(generator)
     context.registerSourceCodeSearchPath(search_path())
     options = context.getOptions()
     options.hwSpecularEnvironmentMethod = getattr(
         gen_shader.HwSpecularEnvironmentMethod, f"SPECULAR_ENVIRONMENT_{environment}")
     options.hwMaxActiveLightSources = 4
+    options.targetColorSpaceOverride = "lin_rec709"
     if lights is not None:
         lights(context, generator)
     return generator.generate("material", material(document), context)
+
+
+def connect_constants(document):
+    """MaterialX 1.39.5's generators ignore a literal where the port has a default geometric property: tangents must come
+    from a node."""
+    for graph in [document, *document.getNodeGraphs()]:
+        for node in graph.getNodes("retro_reflective_bsdf"):
+            port = node.getInput("tangent_u")
+            if port is not None and port.hasValueString():
+                constant = graph.addNode("constant", f"{node.getName()}_tangent", "vector3")
+                constant.addInput("value", "vector3").setValueString(port.getValueString())
+                port.removeAttribute("value")
+                port.setConnectedNode(constant)
+    return document
 
 
 def stages(shader):
