@@ -6,6 +6,8 @@ import unittest
 
 from support import ENVIRONMENTS, GENERATORS, HARDWARE, data_library, documents, generate, read, report, run, stages, tool
 
+COMPILED = ["glsl", "essl", "vk", "wgsl"]
+
 
 class Generate(unittest.TestCase):
     @classmethod
@@ -25,8 +27,13 @@ class Generate(unittest.TestCase):
             for target in targets:
                 for environment in ENVIRONMENTS if target in HARDWARE else ["FIS"]:
                     shader = generate(document, target, environment)
-                    for stage, source in stages(shader).items():
-                        name = f"{path.stem}.{target}.{environment}"
+                    variants = [(environment, stage, source) for stage, source in stages(shader).items()]
+                    if environment == "FIS" and target in COMPILED:
+                        # The lobe's own importance sampling, behind its switch.
+                        version, rest = variants[-1][2].split("\n", 1)
+                        variants.append(("own", "pixel", f"{version}\n#define CATSEYE_RETRO_REFLECTIVE_FIS\n{rest}"))
+                    for variant, stage, source in variants:
+                        name = f"{path.stem}.{target}.{variant}"
                         suffix = {"vertex": "vert", "pixel": "frag"}[stage]
                         out = pathlib.Path(self.folder.name) / f"{name}.{suffix}"
                         out.write_text(source)

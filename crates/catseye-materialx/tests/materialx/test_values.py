@@ -11,7 +11,7 @@ import unittest
 
 import numpy as np
 
-from support import ROOT, data_library, generate, missing, parse, report, stages
+from support import ROOT, missing, report
 
 # Bounds, about twice what was measured on llvmpipe; the directions' own rounding bounds what any f32 code can reach.
 SINGLE_RELATIVE = 2e-5
@@ -21,31 +21,6 @@ LOSS_ANISOTROPIC = 5e-3
 MULTIPLE_ISOTROPIC = 2e-3
 MULTIPLE_ANISOTROPIC = 4e-3
 MIN_ROUGHNESS = 0.002
-
-DOCUMENT = """<?xml version="1.0"?><materialx version="1.39">
-<retro_reflective_bsdf name="b" type="BSDF"/>
-<surface name="s" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="b"/></surface>
-<surfacematerial name="m" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s"/></surfacematerial>
-</materialx>"""
-
-# One pixel for a row of three texels: V and roughness_u, L and roughness_v, N and the scale of the tangent.
-MAIN = """
-uniform sampler2D rows;
-uniform int closureType;
-void main()
-{
-    ivec2 at = ivec2(gl_FragCoord.xy);
-    vec4 a = texelFetch(rows, ivec2(at.x * 3, at.y), 0);
-    vec4 b = texelFetch(rows, ivec2(at.x * 3 + 1, at.y), 0);
-    vec4 c = texelFetch(rows, ivec2(at.x * 3 + 2, at.y), 0);
-    ClosureData data = makeClosureData(closureType, b.xyz, a.xyz, c.xyz, vec3(0.0), 1.0);
-    BSDF bsdf = BSDF(vec3(0.0), vec3(1.0));
-    mx_retro_reflective_bsdf(data, 1.0, a.w, b.w, vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), c.xyz, vec3(c.w, 0.0, 0.0), bsdf);
-    out1 = vec4(bsdf.response.xy, bsdf.throughput.xy);
-}
-"""
-VERTEX = "#version 400\nin vec2 at; void main() { gl_Position = vec4(at, 0.0, 1.0); }"
-WIDTH = 256
 
 
 def f32(values):
@@ -74,41 +49,20 @@ class Values(unittest.TestCase):
             cls.reason = "CATSEYE does not name the catseye command"
             return
         try:
-            import moderngl
-            cls.context = moderngl.create_standalone_context(backend="egl")
+            import gpu
+            cls.gpu = gpu.Gpu()
         except Exception as error:  # noqa: BLE001 - no driver, no library: the reason is what counts
             cls.reason = f"no OpenGL: {error}"
             return
-        source = stages(generate(parse(DOCUMENT, data_library()), "glsl", "NONE"))["pixel"]
-        head = source[: source.index("void main()")]
-        cls.program = cls.context.program(vertex_shader=VERTEX, fragment_shader=head + MAIN)
-        report("values on", cls.context.info["GL_RENDERER"])
+        report("values on", cls.gpu.name)
 
     def setUp(self):
         if self.reason:
             missing(self, self.reason)
 
-    def glsl(self, roughness, wo, wi, closure=1, normal=(0, 0, 1), tangent=1.0):
-        """The response and throughput of each row: single, multiple; throughput of single, of multiple."""
-        context, count = self.context, len(wo)
-        height = -(-count // WIDTH)
-        rows = np.zeros((height * WIDTH, 3, 4), np.float32)
-        rows[:count, 0, :3], rows[:count, 0, 3] = wo, roughness[:, 0]
-        rows[:count, 1, :3], rows[:count, 1, 3] = wi, roughness[:, 1]
-        rows[:count, 2, :3], rows[:count, 2, 3] = normal, tangent
-        texture = context.texture((WIDTH * 3, height), 4, rows.tobytes(), dtype="f4")
-        texture.filter = (context.NEAREST, context.NEAREST)
-        texture.use(0)
-        self.program["rows"], self.program["closureType"] = 0, closure
-        target = context.texture((WIDTH, height), 4, dtype="f4")
-        context.framebuffer([target]).use()
-        triangle = context.buffer(np.array([-1, -1, 3, -1, -1, 3], np.float32).tobytes())
-        context.vertex_array(self.program, [(triangle, "2f", "at")]).render()
-        return np.frombuffer(target.read(), np.float32).reshape(-1, 4)[:count].astype(np.float64)
-
     def compare(self, name, roughness, wo, wi):
         roughness, wo, wi = f32(roughness), f32(wo), f32(wi)
-        found = self.glsl(roughness, wo, wi)
+        found = self.gpu.bsdf(roughness, wo, wi)
         self.assertTrue(np.isfinite(found).all())
         exact = catseye("eval", roughness, wo, wi)
         single, multiple = exact["f_r"] * wi[:, 2], exact["f_g"] * wi[:, 2]
@@ -153,7 +107,7 @@ class Values(unittest.TestCase):
     def test_degenerate_input_is_finite(self):
         """Roughness 0 is the minimum, -1 means "as roughness_u", horizons are black, both sides are alike."""
         up, low = np.array([[0.0, 0.0, 1.0]]), np.array([[1.0, 0.0, 0.0]])
-        peak = self.glsl(np.array([[0.0, -1.0]]), up, up)
+        peak = self.gpu.bsdf(np.array([[0.0, -1.0]]), up, up)
         self.assertAlmostEqual(peak[0, 0] * np.pi * 4 / (2 / MIN_ROUGHNESS**2 + 1), 1.0, places=5)
         self.assertLess(peak[0, 0], 65504)
         for roughness in [(0, 0), (1, -1), (np.inf, np.inf), (np.nan, np.nan), (-5, -5), (1e20, 1e-20)]:
@@ -161,13 +115,13 @@ class Values(unittest.TestCase):
                 for wi in (up, low, -up):
                     for tangent in (1.0, 0.0):
                         for closure in (0, 1, 2, 3):
-                            found = self.glsl(np.array([roughness]), wo, wi, closure, tangent=tangent)
+                            found = self.gpu.bsdf(np.array([roughness]), wo, wi, closure, tangent=tangent)
                             self.assertTrue(np.isfinite(found).all(), (roughness, wo, wi, tangent, closure, found))
                             self.assertTrue((found >= 0).all())
-        self.assertEqual(self.glsl(np.array([[1.0, 1.0]]), up, -up)[0, 0], 0.0)
-        both = [self.glsl(np.array([[0.3, 0.1]]), sign * up, sign * up)[0] for sign in (1, -1)]
+        self.assertEqual(self.gpu.bsdf(np.array([[1.0, 1.0]]), up, -up)[0, 0], 0.0)
+        both = [self.gpu.bsdf(np.array([[0.3, 0.1]]), sign * up, sign * up)[0] for sign in (1, -1)]
         np.testing.assert_array_equal(both[0], both[1])
-        alias = [self.glsl(np.array([[0.3, v]]), up, f32([[0.1, 0.2, 0.97]]))[0] for v in (-1.0, 0.3)]
+        alias = [self.gpu.bsdf(np.array([[0.3, v]]), up, f32([[0.1, 0.2, 0.97]]))[0] for v in (-1.0, 0.3)]
         np.testing.assert_array_equal(alias[0], alias[1])
 
 

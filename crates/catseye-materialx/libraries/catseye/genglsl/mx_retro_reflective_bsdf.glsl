@@ -51,8 +51,9 @@ void mx_retro_reflective_bsdf(ClosureData closureData, float weight, float rough
     }
     else if (closureData.closureType == CLOSURE_TYPE_INDIRECT)
     {
-        vec3 Li = mx_retro_reflective_environment(V, X, Y, N, wo, widths);
-        vec3 diffuse = safeMultiscatterTint * loss_o * mx_environment_irradiance(N);
-        bsdf.response = (safeTint * (1.0 - loss_o) * Li + diffuse) * weight;
+        wo.z = max(wo.z, M_FLOAT_EPS);
+        vec3 single = mx_retro_reflective_environment(V, X, Y, N, wo, widths, 1.0 - loss_o);
+        vec3 multiple = loss_o * mx_environment_irradiance(N);
+        bsdf.response = (safeTint * single + safeMultiscatterTint * multiple) * weight;
     }
 }
