@@ -44,18 +44,29 @@
 //! of elements, 64 BSDF nodes in a chain and 65,536 closures.
 
 mod closure;
+mod compile;
 mod document;
 mod element;
 mod error;
+mod files;
 mod graph;
+mod include;
 mod input;
+mod library;
 mod material;
 mod node;
 mod nodedef;
+mod pattern;
 mod source;
+mod template;
+mod texture;
 mod value;
 mod xml;
 
-pub use closure::{Closure, Material, ScatterMode};
+pub use closure::{Closure, Material, ScatterMode, Surface};
 pub use document::Document;
 pub use error::{Error, Place};
+pub use files::SearchPath;
+pub use library::Library;
+pub use pattern::ShadingPoint;
+pub use template::Patterns;

@@ -12,7 +12,7 @@ const SIZE: [usize; 2] = [96, 54];
 const SIGNS: [[usize; 2]; 2] = [[15, 12], [80, 12]];
 
 fn material(bsdf: Closure) -> Material {
-    Material { name: "test".to_owned(), bsdf, opacity: 1.0 }
+    Material { name: "test".to_owned(), bsdf, ..Material::default() }
 }
 
 fn luminance(image: &Image, [x, y]: [usize; 2]) -> f32 {
