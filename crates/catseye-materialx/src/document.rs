@@ -10,6 +10,7 @@ use crate::{
     graph::{Graph, NodeRef},
     include::Includer,
     library::Library,
+    look::{self, Look},
     material::Builder,
     source::Source,
     xml,
@@ -94,6 +95,20 @@ impl Document {
         graph.materials().map(|material| builder.material(material)).collect()
     }
 
+    /// All looks, in the document's order.
+    ///
+    /// # Errors
+    /// An assignment names no material, or one that doesn't exist.
+    pub fn looks(&self) -> Result<Vec<Look>, Error> {
+        look::looks(&self.root)
+    }
+
+    /// What of the document has no meaning here, a line each: units of lengths and angles, for instance.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        look::unit_warnings(&self.root)
+    }
+
     /// The material of this name, or the document's only one where no name is given.
     ///
     /// # Errors
@@ -132,7 +147,7 @@ pub(crate) fn read_root(path: &Path, name: &str) -> Result<Element, Error> {
     parse_bytes(&bytes, name, folder)
 }
 
-fn parse_bytes(bytes: &[u8], name: &str, folder: Option<&Path>) -> Result<Element, Error> {
+pub(crate) fn parse_bytes(bytes: &[u8], name: &str, folder: Option<&Path>) -> Result<Element, Error> {
     refuse_large(bytes, name)?;
     match str::from_utf8(bytes) {
         Ok(text) => parse_text(text, name, folder),

@@ -43,6 +43,7 @@
 //! Hostile documents are refused in bounded time and memory: no document type declarations, at most 16 MiB, 32 levels
 //! of elements, 64 BSDF nodes in a chain and 65,536 closures.
 
+mod check;
 mod closure;
 mod compile;
 mod document;
@@ -53,6 +54,7 @@ mod graph;
 mod include;
 mod input;
 mod library;
+mod look;
 mod material;
 mod node;
 mod nodedef;
@@ -63,10 +65,12 @@ mod texture;
 mod value;
 mod xml;
 
+pub use check::{check, check_bytes};
 pub use closure::{Closure, Material, ScatterMode, Surface};
 pub use document::Document;
 pub use error::{Error, Place};
 pub use files::SearchPath;
 pub use library::Library;
+pub use look::{Assignment, Look};
 pub use pattern::ShadingPoint;
 pub use template::Patterns;

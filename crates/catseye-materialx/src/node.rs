@@ -65,7 +65,12 @@ impl<'a> Node<'a> {
         Some(Self { node, def, inputs })
     }
 
-    /// The node that an input is connected to, and which of its outputs.
+    /// What feeds its inputs.
+    pub(crate) fn feeds(self) -> Vec<Feed<'a>> {
+        self.inputs.into_iter().map(|input| input.feed).collect()
+    }
+
+    /// The node that an input is connected to.
     pub(crate) fn connected(&self, input: &str) -> Option<NodeRef<'a>> {
         match self.input(input).0.feed {
             Feed::Node { node, .. } => Some(node),
@@ -110,6 +115,11 @@ fn definition(
 pub(crate) fn is_known(element: &Element) -> bool {
     let ty = element.attribute("type");
     NODE_DEFS.iter().any(|def| def.category == element.tag() && Some(def.output.name()) == ty)
+}
+
+/// Whether there are built-in BSDF or shader nodes of this category.
+pub(crate) fn has_category(element: &Element) -> bool {
+    NODE_DEFS.iter().any(|def| def.category == element.tag())
 }
 
 /// The definitions of an element's category and type; at least one.

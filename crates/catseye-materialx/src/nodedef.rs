@@ -416,14 +416,3 @@ pub(crate) static NODE_DEFS: &[NodeDef] = &[
         ],
     },
 ];
-
-/// The known categories in the table's order, each once.
-pub(crate) fn categories() -> Vec<&'static str> {
-    let mut categories: Vec<&str> = Vec::new();
-    for def in NODE_DEFS {
-        if !categories.contains(&def.category) {
-            categories.push(def.category);
-        }
-    }
-    categories
-}
