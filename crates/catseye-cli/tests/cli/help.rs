@@ -2,8 +2,18 @@
 
 use crate::run::{Bench, output};
 
-const VERBS: [&str; 8] =
-    ["render", "furnace", "eval", "sample", "albedo", "plot", "plot lobe", "plot albedo"];
+const VERBS: [&str; 10] = [
+    "render",
+    "furnace",
+    "eval",
+    "sample",
+    "albedo",
+    "plot",
+    "plot lobe",
+    "plot albedo",
+    "materialx",
+    "materialx export",
+];
 
 #[test]
 fn every_verb_has_help_with_an_example() {
