@@ -24,7 +24,7 @@ use crate::{
 };
 
 /// Most problems that are reported for a document.
-const MAX_PROBLEMS: usize = 1000;
+const MAX_PROBLEMS: usize = 200;
 
 /// What is wrong with a file, in the order of its lines; nothing if every node in it can be read.
 ///
@@ -67,7 +67,7 @@ fn check_root(
     checker.scope(&root, ROOT, 0);
     checker.cycles();
     let mut problems = checker.problems;
-    problems.sort_by_key(|problem| order(problem, &own_file));
+    problems.sort_by_cached_key(|problem| order(problem, &own_file));
     problems.dedup_by_key(|problem| problem.to_string());
     problems.truncate(MAX_PROBLEMS);
     problems
@@ -96,7 +96,7 @@ struct Checker<'a, 'g> {
 
 impl<'a> Checker<'a, '_> {
     fn is_full(&self) -> bool {
-        self.problems.len() >= 4 * MAX_PROBLEMS
+        self.problems.len() >= 2 * MAX_PROBLEMS
     }
 
     fn report(&mut self, result: Result<(), Error>) {
@@ -135,6 +135,9 @@ impl<'a> Checker<'a, '_> {
             return;
         }
         for input in graph.children_of_kind("input") {
+            if self.is_full() {
+                return;
+            }
             let result = self.interface_input(node, input);
             self.report(result);
         }
@@ -244,6 +247,9 @@ impl<'a> Checker<'a, '_> {
         }
         let mut feeds = Vec::new();
         for input in node.element.children_of_kind("input") {
+            if self.is_full() {
+                break;
+            }
             match self.defined_input(node, definition, input) {
                 Ok(feed) => feeds.push(feed),
                 Err(problem) => self.problems.push(problem),
@@ -270,12 +276,15 @@ impl<'a> Checker<'a, '_> {
     }
 
     fn look(&mut self, look: &'a Element) {
-        let is_material = |name: &str| self.graph.materials().any(|material| material.element.name() == Some(name));
+        let materials: HashSet<&str> = self.graph.materials().filter_map(|node| node.element.name()).collect();
         let mut problems = Vec::new();
         for assign in look.children_of_kind("materialassign") {
+            if problems.len() >= MAX_PROBLEMS {
+                break;
+            }
             match assign.attribute("material") {
                 None => problems.push(Error::MissingAttribute { at: look.place_of(assign), attribute: "material" }),
-                Some(name) if !is_material(name) => problems.push(Error::Dangling {
+                Some(name) if !materials.contains(name) => problems.push(Error::Dangling {
                     at: look.place_of(assign),
                     target: format!("material={}", quoted(name)),
                 }),
@@ -289,7 +298,7 @@ impl<'a> Checker<'a, '_> {
     fn cycles(&mut self) {
         let mut done: HashSet<Key> = HashSet::new();
         let mut starts: Vec<NodeRef<'a>> = self.edges.values().map(|(node, _)| *node).collect();
-        starts.sort_by_key(|node| (node.element.place().line, node.element.place().column));
+        starts.sort_by_key(|node| node.element.offset());
         let key = |node: NodeRef<'_>| (node.scope, ptr::from_ref(node.element));
         for start in starts {
             let mut path: Vec<(NodeRef<'a>, usize)> = vec![(start, 0)];
@@ -307,6 +316,9 @@ impl<'a> Checker<'a, '_> {
                 };
                 *next += 1;
                 if on_path.contains(&key(target)) {
+                    if self.problems.len() >= 2 * MAX_PROBLEMS {
+                        return;
+                    }
                     let start = path.iter().position(|(node, _)| key(*node) == key(target)).unwrap_or(0);
                     let names = path[start..].iter().map(|(node, _)| node.element.quoted_name());
                     self.problems.push(Error::Cycle { at: target.element.place(), cycle: listed(names) });

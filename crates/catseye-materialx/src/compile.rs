@@ -11,7 +11,7 @@ use crate::{
     element::Element,
     error::{Error, listed, quoted},
     files::Refusal,
-    graph::{Feed, Graph, NodeRef, ScopeId},
+    graph::{Feed, Graph, MOST_PROBLEMS, NodeRef, ScopeId},
     input::{check_connection, color_space, constant, no_output, output_type, unknown_category},
     library::Library,
     pattern::{Geometry, Lowering, Operand, Parameter, Port, Signature, signature, signatures},
@@ -271,7 +271,11 @@ pub(crate) fn bind_pattern<'a>(
 ) -> Vec<Option<(&'a Element, Feed<'a>, Type)>> {
     let mut inputs = vec![None; signature.inputs.len()];
     let mut seen = HashSet::new();
+    let most = problems.len() + MOST_PROBLEMS;
     for child in node.element.children() {
+        if problems.len() >= most {
+            break;
+        }
         match bind_input(graph, signature, ty, node, child) {
             Ok(Some((index, feed, input_type))) => {
                 if seen.insert(index) {

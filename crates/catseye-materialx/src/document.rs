@@ -95,6 +95,13 @@ impl Document {
         graph.materials().map(|material| builder.material(material)).collect()
     }
 
+    /// The names of all surface materials, in the document's order.
+    #[must_use]
+    pub fn material_names(&self) -> Vec<String> {
+        let materials = self.root.children_of_kind("surfacematerial");
+        materials.filter_map(|material| material.name().map(str::to_owned)).collect()
+    }
+
     /// All looks, in the document's order.
     ///
     /// # Errors

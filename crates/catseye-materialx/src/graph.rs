@@ -14,6 +14,8 @@ use crate::{
 
 /// Nodegraphs and definitions in use, each once for every place that uses it: nested ones could make 2^30.
 const MAX_SCOPES: usize = 16_384;
+/// Problems of one kind that are told.
+pub(crate) const MOST_PROBLEMS: usize = 50;
 /// Nodegraphs inside nodegraphs, and definitions that use definitions.
 const MAX_SCOPE_DEPTH: usize = 24;
 
@@ -88,13 +90,16 @@ impl<'a> Graph<'a> {
         (graph, problems)
     }
 
+    /// The names of a scope and the nodegraphs in it; finding the lines of problems takes time, so not all are told.
     fn index(&mut self, scope: &'a Element, problems: &mut Vec<Error>) {
         for child in scope.children() {
             if child.tag() == "nodegraph" {
                 self.index(child, problems);
             }
             let Some(name) = child.name() else { continue };
-            if let Some(first) = self.names.insert((ptr::from_ref(scope), name), child) {
+            if let Some(first) = self.names.insert((ptr::from_ref(scope), name), child)
+                && problems.len() < MOST_PROBLEMS
+            {
                 problems.push(Error::DuplicateName { at: child.place(), first_line: first.place().line });
             }
         }
@@ -178,7 +183,7 @@ impl<'a> Graph<'a> {
             target: format!("interfacename={}", quoted(name)),
         };
         let caller = scope.interface.ok_or_else(dangling)?;
-        let given = caller.element.child("input", name);
+        let given = self.get(caller.element, name).filter(|element| element.tag() == "input");
         if !scope.defined {
             return self.feed_at(caller, given.ok_or_else(dangling)?, false);
         }

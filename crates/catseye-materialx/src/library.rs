@@ -110,7 +110,8 @@ impl<'a> Definition<'a> {
     }
 
     pub(crate) fn outputs(&self) -> impl Iterator<Item = &'a Element> {
-        self.nodedefs.iter().flat_map(|nodedef| nodedef.children_of_kind("output"))
+        let own = self.nodedefs.iter().find(|nodedef| nodedef.children_of_kind("output").next().is_some());
+        own.into_iter().flat_map(|nodedef| nodedef.children_of_kind("output"))
     }
 
     /// The type of its nodes, by name.
@@ -122,7 +123,11 @@ impl<'a> Definition<'a> {
 
     /// Whether every input of the node exists with its type.
     fn fits(&self, node: &Element) -> bool {
+        /// Inputs of a node; more than any has, and few enough to be looked up one by one.
+        const MOST: usize = 512;
         self.output_type() == node.attribute("type")
+            && node.children().len() <= MOST
+            && self.nodedefs.iter().all(|nodedef| nodedef.children().len() <= MOST)
             && node.children_of_kind("input").all(|input| {
                 let defined = input.name().and_then(|name| self.input(name));
                 defined.is_some_and(|defined| defined.attribute("type") == input.attribute("type"))
@@ -140,6 +145,8 @@ impl<'a> Definitions<'a> {
     pub(crate) fn new(roots: impl Iterator<Item = &'a Element> + Clone) -> Self {
         /// Definitions that inherit from one another; a cycle ends here too.
         const MAX_INHERITANCE: usize = 8;
+        /// Definitions of one category; MaterialX's `convert` has 45.
+        const MAX_SAME_CATEGORY: usize = 256;
         let elements = || roots.clone().flat_map(Element::children);
         let by_name: HashMap<&str, &Element> = elements()
             .filter(|element| element.tag() == "nodedef")
@@ -153,7 +160,10 @@ impl<'a> Definitions<'a> {
             let nodedefs: Vec<&Element> =
                 core::iter::successors(Some(nodedef), parent).take(MAX_INHERITANCE).collect();
             let graph = nodedefs.iter().find_map(|nodedef| graphs.get(nodedef.name()?).copied());
-            by_category.entry(category).or_default().push(Definition { nodedefs, graph });
+            let same = by_category.entry(category).or_default();
+            if same.len() < MAX_SAME_CATEGORY {
+                same.push(Definition { nodedefs, graph });
+            }
         }
         Self { by_category }
     }

@@ -1,5 +1,7 @@
 //! Looks: which geometry has which material.
 
+use std::collections::HashMap;
+
 use crate::{
     element::Element,
     error::{Error, quoted},
@@ -57,31 +59,53 @@ fn matches_part(pattern: &str, part: &str) -> bool {
 
 /// The looks of a document, inherited assignments first.
 pub(crate) fn looks(root: &Element) -> Result<Vec<Look>, Error> {
-    root.children_of_kind("look").map(|look| read(root, look)).collect()
+    let names = |tag| root.children_of_kind(tag).filter_map(|element: &Element| Some((element.name()?, element)));
+    let known = Known {
+        looks: names("look").collect(),
+        materials: names("surfacematerial").collect(),
+        collections: names("collection").collect(),
+    };
+    let mut count = 0;
+    root.children_of_kind("look").map(|look| read(&known, look, &mut count)).collect()
 }
 
-fn read(root: &Element, look: &Element) -> Result<Look, Error> {
+/// What looks refer to.
+struct Known<'a> {
+    looks: HashMap<&'a str, &'a Element>,
+    materials: HashMap<&'a str, &'a Element>,
+    collections: HashMap<&'a str, &'a Element>,
+}
+
+/// Assignments of all looks together, inherited ones counted where they arrive.
+const MAX_ASSIGNMENTS: usize = 100_000;
+
+fn read<'a>(known: &Known<'a>, look: &'a Element, count: &mut usize) -> Result<Look, Error> {
     /// Looks that inherit from one another; a cycle ends here too.
     const MAX_INHERITANCE: usize = 8;
-    let parent = |look: &&Element| look.attribute("inherit").and_then(|name| root.child("look", name));
+    let parent = |look: &&'a Element| look.attribute("inherit").and_then(|name| known.looks.get(name).copied());
     let chain: Vec<&Element> = core::iter::successors(Some(look), parent).take(MAX_INHERITANCE).collect();
     let mut assignments = Vec::new();
     for look in chain.into_iter().rev() {
         for assign in look.children_of_kind("materialassign") {
-            assignments.push(assignment(root, look, assign)?);
+            *count += 1;
+            if *count > MAX_ASSIGNMENTS {
+                let what = "material assignments";
+                return Err(Error::Limit { at: look.place(), what, limit: MAX_ASSIGNMENTS });
+            }
+            assignments.push(assignment(known, look, assign)?);
         }
     }
     Ok(Look { name: look.require("name")?.to_owned(), assignments })
 }
 
-fn assignment(root: &Element, look: &Element, assign: &Element) -> Result<Assignment, Error> {
+fn assignment(known: &Known<'_>, look: &Element, assign: &Element) -> Result<Assignment, Error> {
     let material = look.require_of(assign, "material")?;
-    if root.child("surfacematerial", material).is_none() {
+    if !known.materials.contains_key(material) {
         let target = format!("material={}", quoted(material));
         return Err(Error::Dangling { at: look.place_of(assign), target });
     }
     let mut geometry = paths(assign.attribute("geom").unwrap_or_default());
-    if let Some(collection) = assign.attribute("collection").and_then(|name| root.child("collection", name)) {
+    if let Some(collection) = assign.attribute("collection").and_then(|name| known.collections.get(name)) {
         geometry.extend(paths(collection.attribute("includegeom").unwrap_or_default()));
     }
     Ok(Assignment { material: material.to_owned(), geometry })

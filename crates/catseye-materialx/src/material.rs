@@ -77,6 +77,9 @@ impl<'a> Builder<'a> {
 
     fn built_in_surface(&mut self, node: &Node<'a>) -> Result<SurfaceTemplate, Error> {
         let opacity = self.float(node, "opacity")?;
+        if node.def.input("thin_walled").is_some() && self.boolean(node, "thin_walled")? {
+            self.warn(node, "thin_walled", "thin walls are not rendered: light is refracted at each surface");
+        }
         let (bsdf, emission) = match node.def.kind {
             Kind::SurfaceUnlit => {
                 let (strength, color) = (self.float(node, "emission")?, self.color(node, "emission_color")?);

@@ -3,7 +3,7 @@
 use crate::{
     element::Element,
     error::{Error, Place, listed, quoted},
-    graph::{Feed, Graph, NodeRef},
+    graph::{Feed, Graph, MOST_PROBLEMS, NodeRef},
     input::{feed, unknown_category},
     nodedef::{InputDef, NODE_DEFS, NodeDef},
     value::Type,
@@ -46,7 +46,11 @@ impl<'a> Node<'a> {
             }
         };
         let mut inputs = vec![Input { element: None, feed: Feed::Default }; def.inputs.len()];
+        let most = problems.len() + MOST_PROBLEMS;
         for child in node.element.children() {
+            if problems.len() >= most {
+                break;
+            }
             // `definition` has reported inputs without a name, and those that there aren't.
             let Some((index, input)) = child.name().and_then(|name| def.input(name)) else { continue };
             if child.tag() != "input" || child.attribute("type") != Some(input.ty().name()) {
@@ -102,7 +106,11 @@ fn definition(
     node: &Element,
     problems: &mut Vec<Error>,
 ) -> &'static NodeDef {
+    let most = problems.len() + MOST_PROBLEMS;
     for child in node.children() {
+        if problems.len() >= most {
+            break;
+        }
         if let Err(problem) = narrow(&mut defs, node, child) {
             problems.push(problem);
         }

@@ -105,6 +105,20 @@ fn defaults_are_those_of_the_node_definitions() {
         ),
         ("dielectric_bsdf", dielectric(1.5, 0.05)),
         (
+            "conductor_bsdf",
+            Closure::Conductor {
+                weight: 1.0,
+                ior: [0.183, 0.421, 1.373],
+                extinction: [3.424, 2.346, 1.770],
+                roughness: [0.05; 2],
+                retroreflective: false,
+            },
+        ),
+        ("generalized_schlick_bsdf", schlick(false, ScatterMode::Reflect)),
+        ("burley_diffuse_bsdf", Closure::BurleyDiffuse { weight: 1.0, color: [0.18; 3], roughness: 0.0 }),
+        ("translucent_bsdf", Closure::Translucent { weight: 1.0, color: [1.0; 3] }),
+        ("sheen_bsdf", Closure::Sheen { weight: 1.0, color: [1.0; 3], roughness: 0.3 }),
+        (
             "mix",
             Closure::Mix {
                 foreground: Box::new(Closure::None),
@@ -119,6 +133,44 @@ fn defaults_are_those_of_the_node_definitions() {
     for (category, expected) in cases {
         assert_eq!(parse(&single(category, "")).bsdf, expected, "{category}");
     }
+}
+
+fn schlick(retroreflective: bool, scatter_mode: ScatterMode) -> Closure {
+    Closure::GeneralizedSchlick {
+        weight: 1.0,
+        color0: [1.0; 3],
+        color82: [1.0; 3],
+        color90: [1.0; 3],
+        exponent: 5.0,
+        roughness: [0.05; 2],
+        retroreflective,
+        scatter_mode,
+    }
+}
+
+#[test]
+fn three_microfacet_lobes_can_be_retroreflective() {
+    let input = r#"<input name="retroreflective" type="boolean" value="true" />"#;
+    for category in ["dielectric_bsdf", "conductor_bsdf", "generalized_schlick_bsdf"] {
+        let sent_back = match parse(&single(category, input)).bsdf {
+            Closure::Dielectric { retroreflective, .. }
+            | Closure::Conductor { retroreflective, .. }
+            | Closure::GeneralizedSchlick { retroreflective, .. } => retroreflective,
+            other => panic!("{other:?}"),
+        };
+        assert!(sent_back, "{category}");
+    }
+}
+
+#[test]
+fn a_normal_of_its_own_orients_a_lobe() {
+    let input = r#"<input name="normal" type="vector3" value="0, 2, 0" />"#;
+    let expected = Closure::Oriented {
+        closure: Box::new(Closure::Translucent { weight: 1.0, color: [1.0; 3] }),
+        normal: Some([0.0, 1.0, 0.0]),
+        tangent: None,
+    };
+    assert_eq!(parse(&single("translucent_bsdf", input)).bsdf, expected);
 }
 
 #[test]

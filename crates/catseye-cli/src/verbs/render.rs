@@ -10,8 +10,8 @@ use clap::ValueEnum;
 use serde_json::json;
 
 use crate::args::ModelArg;
-use crate::library::LibraryArgs;
 use crate::failure::Usage;
+use crate::library::LibraryArgs;
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::{help, report};

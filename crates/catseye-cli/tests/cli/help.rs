@@ -2,7 +2,7 @@
 
 use crate::run::{Bench, output};
 
-const VERBS: [&str; 10] = [
+const VERBS: [&str; 11] = [
     "render",
     "furnace",
     "eval",
@@ -13,6 +13,7 @@ const VERBS: [&str; 10] = [
     "plot albedo",
     "materialx",
     "materialx export",
+    "materialx check",
 ];
 
 #[test]

@@ -5,6 +5,7 @@ mod bad_input;
 mod csv_contract;
 mod furnace_table;
 mod help;
+mod materialx_check;
 mod materialx_export;
 mod plots;
 mod render_files;
