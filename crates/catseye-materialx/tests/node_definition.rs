@@ -52,7 +52,7 @@ fn documented(node: &str) -> Vec<[String; 3]> {
     let rows = section.lines().filter_map(|line| line.strip_prefix("|`"));
     rows.map(|row| {
         let cells: Vec<&str> = row.split('|').map(|cell| cell.trim().trim_matches('`')).collect();
-        [cells[0], cells[2], cells[3]].map(|cell| cell.trim_start_matches('_').to_owned())
+        [cells[0], cells[2], cells[3]].map(|cell| cell.trim_matches('_').to_owned())
     })
     .collect()
 }
@@ -60,8 +60,7 @@ fn documented(node: &str) -> Vec<[String; 3]> {
 #[test]
 fn the_specification_has_the_same_ports() {
     for node in ["retro_reflective_bsdf", "retro_sheeting_surface"] {
-        let documented: Vec<_> =
-            documented(node).into_iter().filter(|[name, ..]| name != "out").collect();
+        let documented: Vec<_> = documented(node).into_iter().filter(|[name, ..]| name != "out").collect();
         assert_eq!(documented, ports(&format!("ND_{node}")), "{node}");
     }
 }
