@@ -31,7 +31,10 @@ fn glsl() -> Result<String> {
     let mut out = format!("{GLSL_HEAD}\n");
     writeln!(out, "const float RETRO_REFLECTIVE_ALBEDO_KAPPA = {COMPACT_KAPPA:?};\n")?;
     writeln!(out, "// The sums of both for a ratio of 1, where every T_b is 1 and w is 0.")?;
-    writeln!(out, "void mx_retro_reflective_contract_isotropic(vec4 t_m, float m, inout RetroReflectiveAlbedo albedo)\n{{")?;
+    writeln!(
+        out,
+        "void mx_retro_reflective_contract_isotropic(vec4 t_m, float m, inout RetroReflectiveAlbedo albedo)\n{{"
+    )?;
     for (a, rows) in COMPACT.iter().enumerate() {
         let sum = |i: usize| rows.iter().map(|row| row[i]).sum::<f32>();
         let factor = t("t_m", a);
@@ -40,7 +43,10 @@ fn glsl() -> Result<String> {
         writeln!(out, "    albedo.p0_p1.x += {factor}{p4:.6};")?;
     }
     writeln!(out, "    albedo.p0 *= m;\n    albedo.p0_p1 *= m;\n}}\n")?;
-    writeln!(out, "void mx_retro_reflective_contract(vec4 t_m, vec4 t_k, float m, inout RetroReflectiveAlbedo albedo)\n{{")?;
+    writeln!(
+        out,
+        "void mx_retro_reflective_contract(vec4 t_m, vec4 t_k, float m, inout RetroReflectiveAlbedo albedo)\n{{"
+    )?;
     writeln!(out, "    float t;")?;
     for (a, rows) in COMPACT.iter().enumerate() {
         for (b, row) in rows.iter().enumerate() {
@@ -76,4 +82,16 @@ fn osl() -> Result<String> {
     }
     let text = out.trim_end_matches(",\n").to_owned();
     Ok(format!("{text}\n    }};\n    float KAPPA = {COMPACT_KAPPA:?};\n{OSL_TAIL}"))
+}
+
+#[cfg(test)]
+mod tests {
+    #[test]
+    fn the_written_files_are_fresh() {
+        for (path, text) in super::files().expect("the texts are written to memory") {
+            let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("..").join(&path);
+            let written = std::fs::read_to_string(file).expect("the file is in the repository");
+            assert!(written == text, "{path} is stale: run `cargo xtask shaders`");
+        }
+    }
 }
