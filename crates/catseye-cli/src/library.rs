@@ -16,8 +16,11 @@ pub(crate) struct LibraryArgs {
 
 impl LibraryArgs {
     pub(crate) fn load(&self) -> Result<Arc<Library>, catseye_materialx::Error> {
-        let search_path =
-            if self.folders.is_empty() { SearchPath::from_env() } else { SearchPath::new(self.folders.clone()) };
+        let search_path = if self.folders.is_empty() {
+            SearchPath::from_env()
+        } else {
+            SearchPath::new(self.folders.clone())
+        };
         Library::load(search_path).map(Arc::new)
     }
 }

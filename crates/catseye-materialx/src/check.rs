@@ -63,7 +63,8 @@ fn check_root(
     let mut problems = includer.problems();
     let (graph, duplicates) = Graph::with_problems(&root, library);
     problems.extend(duplicates);
-    let mut checker = Checker { graph: &graph, library, problems, edges: HashMap::new(), seen: HashSet::new() };
+    let mut checker =
+        Checker { graph: &graph, library, problems, edges: HashMap::new(), seen: HashSet::new() };
     checker.scope(&root, ROOT, 0);
     checker.cycles();
     let mut problems = checker.problems;
@@ -118,9 +119,9 @@ impl<'a> Checker<'a, '_> {
                 // The nodegraph's own, which may be connected to what is around it; checked there.
                 "input" => {}
                 "look" => self.look(child),
-                "nodedef" | "implementation" | "typedef" | "targetdef" | "unitdef" | "unittypedef" | "geompropdef"
-                | "geominfo" | "lookgroup" | "collection" | "propertyset" | "variantset" | "backdrop" | "attributedef"
-                | "xi:include" => {}
+                "nodedef" | "implementation" | "typedef" | "targetdef" | "unitdef" | "unittypedef"
+                | "geompropdef" | "geominfo" | "lookgroup" | "collection" | "propertyset" | "variantset"
+                | "backdrop" | "attributedef" | "xi:include" => {}
                 _ => self.node(node),
             }
         }
@@ -180,12 +181,19 @@ impl<'a> Checker<'a, '_> {
         if !self.seen.insert((path.to_string_lossy().into_owned(), known_space)) {
             return Ok(());
         }
-        check_size(&path).map_err(|message| Error::Picture { at: owner.place_of(input), name: quoted(name), message })
+        check_size(&path).map_err(|message| Error::Picture {
+            at: owner.place_of(input),
+            name: quoted(name),
+            message,
+        })
     }
 
     fn output(&mut self, output: NodeRef<'a>) {
         let result = (|| {
-            if ["nodename", "nodegraph", "interfacename"].iter().all(|name| output.element.attribute(name).is_none()) {
+            if ["nodename", "nodegraph", "interfacename"]
+                .iter()
+                .all(|name| output.element.attribute(name).is_none())
+            {
                 return Ok(());
             }
             let Some(feed) = self.graph.output_feed(output.scope, output.element)? else {
@@ -208,7 +216,8 @@ impl<'a> Checker<'a, '_> {
         if is_known(node.element) || has_category(node.element) && !self.is_pattern(node.element) {
             let bound = Node::bind_all(self.graph, node, &mut self.problems);
             feeds.extend(bound.into_iter().flat_map(|bound| bound.feeds()));
-        } else if let Some((signature, ty)) = ty.and_then(|ty| Some((signature(node.element.tag(), ty)?, ty))) {
+        } else if let Some((signature, ty)) = ty.and_then(|ty| Some((signature(node.element.tag(), ty)?, ty)))
+        {
             let inputs = bind_pattern(self.graph, signature, ty, node, &mut self.problems);
             for (_, feed, input_type) in inputs.into_iter().flatten() {
                 feeds.push(feed);
@@ -276,14 +285,16 @@ impl<'a> Checker<'a, '_> {
     }
 
     fn look(&mut self, look: &'a Element) {
-        let materials: HashSet<&str> = self.graph.materials().filter_map(|node| node.element.name()).collect();
+        let materials: HashSet<&str> =
+            self.graph.materials().filter_map(|node| node.element.name()).collect();
         let mut problems = Vec::new();
         for assign in look.children_of_kind("materialassign") {
             if problems.len() >= MAX_PROBLEMS {
                 break;
             }
             match assign.attribute("material") {
-                None => problems.push(Error::MissingAttribute { at: look.place_of(assign), attribute: "material" }),
+                None => problems
+                    .push(Error::MissingAttribute { at: look.place_of(assign), attribute: "material" }),
                 Some(name) if !materials.contains(name) => problems.push(Error::Dangling {
                     at: look.place_of(assign),
                     target: format!("material={}", quoted(name)),
@@ -340,7 +351,8 @@ fn check_bounds(owner: &Element, input: &Element, defined: &Element, ty: Type) -
     };
     let (low, high) = (bound("uimin"), bound("uimax"));
     for (i, x) in value.components().iter().enumerate() {
-        let limit = |bound: &Option<crate::value::Value<'_>>| bound.and_then(|b| b.components().get(i).copied());
+        let limit =
+            |bound: &Option<crate::value::Value<'_>>| bound.and_then(|b| b.components().get(i).copied());
         let below = limit(&low).is_some_and(|low| *x < low);
         let above = limit(&high).is_some_and(|high| *x > high);
         if below || above {

@@ -89,7 +89,9 @@ impl<'a> PatternCompiler<'a> {
     fn literal(&mut self, owner: &'a Element, input: &'a Element, ty: Type) -> Result<Operand, Error> {
         Ok(match constant(owner, input, ty)? {
             Value::String(text) => Operand::Text(text.to_owned()),
-            Value::Filename(name) => return self.texture(owner, input, name, &COLOR_SPACES[0]).map(Operand::Texture),
+            Value::Filename(name) => {
+                return self.texture(owner, input, name, &COLOR_SPACES[0]).map(Operand::Texture);
+            }
             Value::Matrix33(matrix) => Operand::Matrix(matrix),
             value if ty.width() > 0 => Operand::Register(self.lowering.lanes(value.lanes(), ty.width())),
             _ => Operand::Text(String::new()),
@@ -181,7 +183,9 @@ impl<'a> PatternCompiler<'a> {
             Port::Scalar => 1,
             _ => node_type.width(),
         };
-        let Some((child, feed, ty)) = given else { return Ok(self.lowering.fallback(parameter.fallback, width)) };
+        let Some((child, feed, ty)) = given else {
+            return Ok(self.lowering.fallback(parameter.fallback, width));
+        };
         let operand = match feed {
             Feed::Value { owner, input, .. } if ty == Type::Filename => {
                 let space = picture_space(owner, input, child, node_type)?;
@@ -219,8 +223,11 @@ impl<'a> PatternCompiler<'a> {
         if let Some(texture) = self.textures.get(&key) {
             return Ok(Some(self.lowering.assembler.texture(Arc::clone(texture))));
         }
-        let texture = Texture::load(&key.0, space)
-            .map_err(|message| Error::Picture { at: owner.place_of(input), name: quoted(name), message })?;
+        let texture = Texture::load(&key.0, space).map_err(|message| Error::Picture {
+            at: owner.place_of(input),
+            name: quoted(name),
+            message,
+        })?;
         self.texture_bytes += texture.bytes();
         if self.texture_bytes > MAX_TEXTURE_BYTES {
             let (what, limit) = ("bytes of pictures", MAX_TEXTURE_BYTES);
@@ -233,7 +240,12 @@ impl<'a> PatternCompiler<'a> {
 }
 
 /// The file that an input names.
-pub(crate) fn find_picture(library: &Library, owner: &Element, input: &Element, name: &str) -> Result<PathBuf, Error> {
+pub(crate) fn find_picture(
+    library: &Library,
+    owner: &Element,
+    input: &Element,
+    name: &str,
+) -> Result<PathBuf, Error> {
     let file = format!("{}{name}", input.fileprefix());
     library.search_path().find(input.source(), &file).map_err(|refusal| {
         let (at, name) = (owner.place_of(input), quoted(&file));
@@ -310,7 +322,8 @@ fn bind_input<'a>(
         let (what, instead) = ("an element other than <input> in a node".to_owned(), "remove it".to_owned());
         return Err(Error::Unsupported { at: at(), what, instead });
     }
-    let (name, type_name) = (node.element.require_of(child, "name")?, node.element.require_of(child, "type")?);
+    let (name, type_name) =
+        (node.element.require_of(child, "name")?, node.element.require_of(child, "type")?);
     let Some((index, parameter)) = signature.input(name) else {
         let mut all = signatures(signature.category).filter(|other| other.types.contains(&ty));
         if let Some((_, _)) = all.find_map(|other| other.input(name)) {

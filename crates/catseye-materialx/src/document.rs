@@ -150,7 +150,8 @@ pub(crate) fn read_root(path: &Path, name: &str) -> Result<Element, Error> {
         return Err(Error::Folder { file: name.into() });
     }
     let bytes = read(path).map_err(|cause| Error::Read { file: name.into(), cause })?;
-    let folder = path.parent().map(|folder| if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
+    let folder =
+        path.parent().map(|folder| if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
     parse_bytes(&bytes, name, folder)
 }
 

@@ -121,13 +121,17 @@ pub enum Error {
         first_line: u32,
     },
     /// A node of a category that is not known here.
-    #[error("{at}: unknown node category; `--materialx-path` or MATERIALX_SEARCH_PATH adds libraries that define nodes")]
+    #[error(
+        "{at}: unknown node category; `--materialx-path` or MATERIALX_SEARCH_PATH adds libraries that define nodes"
+    )]
     UnknownCategory {
         /// The node.
         at: Place,
     },
     /// A node that is declared but that nothing here knows how to compute.
-    #[error("{at}: the node is declared, but its implementation is code for another renderer; it is not supported")]
+    #[error(
+        "{at}: the node is declared, but its implementation is code for another renderer; it is not supported"
+    )]
     NoGraph {
         /// The node.
         at: Place,
@@ -205,7 +209,9 @@ pub enum Error {
         name: String,
     },
     /// A file outside the folders that may be read.
-    #[error("{at}: the file {name} is outside the document's folder; add its folder to the search path to allow it")]
+    #[error(
+        "{at}: the file {name} is outside the document's folder; add its folder to the search path to allow it"
+    )]
     OutsideSearchPath {
         /// The element that names it.
         at: Place,

@@ -211,7 +211,8 @@ impl<'a> Graph<'a> {
         // A nodegraph sees its siblings and those of the nodegraphs around it.
         while let Some(id) = scope {
             let around = self.scopes.borrow()[id.0];
-            if let Some(graph) = self.get(around.element, name).filter(|element| element.tag() == "nodegraph") {
+            if let Some(graph) = self.get(around.element, name).filter(|element| element.tag() == "nodegraph")
+            {
                 let inner = self.enter(graph, NodeRef { element: graph, scope: id }, false)?;
                 return self.output(inner, output);
             }

@@ -10,7 +10,11 @@ use crate::{
 };
 
 /// The type of a node's output.
-pub(crate) fn output_type(graph: &Graph<'_>, target: NodeRef<'_>, output: Option<&str>) -> Result<Type, Error> {
+pub(crate) fn output_type(
+    graph: &Graph<'_>,
+    target: NodeRef<'_>,
+    output: Option<&str>,
+) -> Result<Type, Error> {
     let element = target.element;
     let unknown = |found: &str| Error::WrongType {
         at: element.place(),

@@ -5,12 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use crate::{
-    document::read_root,
-    element::Element,
-    error::Error,
-    files::SearchPath,
-};
+use crate::{document::read_root, element::Element, error::Error, files::SearchPath};
 
 /// Files of all libraries together; MaterialX 1.39.5 has 30 that are read here.
 const MAX_FILES: usize = 4096;
@@ -71,7 +66,9 @@ fn collect(folder: &Path, depth: usize, files: &mut Vec<PathBuf>) -> Result<(), 
     let read = |cause| Error::Read { file: folder.to_string_lossy().into(), cause };
     let mut entries = folder
         .read_dir()
-        .and_then(|entries| entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<Vec<_>, _>>())
+        .and_then(|entries| {
+            entries.map(|entry| entry.map(|entry| entry.path())).collect::<Result<Vec<_>, _>>()
+        })
         .map_err(read)?;
     entries.sort();
     for path in entries {
@@ -156,7 +153,9 @@ impl<'a> Definitions<'a> {
         let mut by_category: HashMap<&str, Vec<Definition<'_>>> = HashMap::new();
         for nodedef in elements().filter(|element| element.tag() == "nodedef") {
             let Some(category) = nodedef.attribute("node") else { continue };
-            let parent = |nodedef: &&'a Element| nodedef.attribute("inherit").and_then(|name| by_name.get(name).copied());
+            let parent = |nodedef: &&'a Element| {
+                nodedef.attribute("inherit").and_then(|name| by_name.get(name).copied())
+            };
             let nodedefs: Vec<&Element> =
                 core::iter::successors(Some(nodedef), parent).take(MAX_INHERITANCE).collect();
             let graph = nodedefs.iter().find_map(|nodedef| graphs.get(nodedef.name()?).copied());
@@ -191,9 +190,11 @@ impl<'a> Definitions<'a> {
 fn graphs<'a>(elements: impl Iterator<Item = &'a Element> + Clone) -> HashMap<&'a str, &'a Element> {
     let graphs = || elements.clone().filter(|element| element.tag() == "nodegraph");
     let direct = graphs().filter_map(|graph| Some((graph.attribute("nodedef")?, graph)));
-    let by_name: HashMap<&str, &Element> = graphs().filter_map(|graph| Some((graph.name()?, graph))).collect();
-    let implementations = elements.clone().filter(|element| element.tag() == "implementation").filter_map(|element| {
-        Some((element.attribute("nodedef")?, *by_name.get(element.attribute("nodegraph")?)?))
-    });
+    let by_name: HashMap<&str, &Element> =
+        graphs().filter_map(|graph| Some((graph.name()?, graph))).collect();
+    let implementations =
+        elements.clone().filter(|element| element.tag() == "implementation").filter_map(|element| {
+            Some((element.attribute("nodedef")?, *by_name.get(element.attribute("nodegraph")?)?))
+        });
     implementations.chain(direct).collect()
 }

@@ -30,18 +30,19 @@ impl Look {
     /// The material of the geometry with this path.
     #[must_use]
     pub fn material(&self, path: &str) -> Option<&str> {
-        let assigned = |assignment: &&Assignment| {
-            assignment.geometry.iter().any(|pattern| matches_path(pattern, path))
-        };
+        let assigned =
+            |assignment: &&Assignment| assignment.geometry.iter().any(|pattern| matches_path(pattern, path));
         self.assignments.iter().rev().find(assigned).map(|assignment| assignment.material.as_str())
     }
 }
 
 /// Whether a path is one that the pattern names, or below it.
 fn matches_path(pattern: &str, path: &str) -> bool {
-    let parts = |text: &str| text.split('/').filter(|part| !part.is_empty()).map(str::to_owned).collect::<Vec<_>>();
+    let parts =
+        |text: &str| text.split('/').filter(|part| !part.is_empty()).map(str::to_owned).collect::<Vec<_>>();
     let (pattern, path) = (parts(pattern), parts(path));
-    pattern.len() <= path.len() && pattern.iter().zip(&path).all(|(pattern, part)| matches_part(pattern, part))
+    pattern.len() <= path.len()
+        && pattern.iter().zip(&path).all(|(pattern, part)| matches_part(pattern, part))
 }
 
 /// Whether a part of a path fits a pattern with `*`: greedy, in time proportional to the product of the lengths.
@@ -59,7 +60,8 @@ fn matches_part(pattern: &str, part: &str) -> bool {
 
 /// The looks of a document, inherited assignments first.
 pub(crate) fn looks(root: &Element) -> Result<Vec<Look>, Error> {
-    let names = |tag| root.children_of_kind(tag).filter_map(|element: &Element| Some((element.name()?, element)));
+    let names =
+        |tag| root.children_of_kind(tag).filter_map(|element: &Element| Some((element.name()?, element)));
     let known = Known {
         looks: names("look").collect(),
         materials: names("surfacematerial").collect(),
@@ -82,7 +84,8 @@ const MAX_ASSIGNMENTS: usize = 100_000;
 fn read<'a>(known: &Known<'a>, look: &'a Element, count: &mut usize) -> Result<Look, Error> {
     /// Looks that inherit from one another; a cycle ends here too.
     const MAX_INHERITANCE: usize = 8;
-    let parent = |look: &&'a Element| look.attribute("inherit").and_then(|name| known.looks.get(name).copied());
+    let parent =
+        |look: &&'a Element| look.attribute("inherit").and_then(|name| known.looks.get(name).copied());
     let chain: Vec<&Element> = core::iter::successors(Some(look), parent).take(MAX_INHERITANCE).collect();
     let mut assignments = Vec::new();
     for look in chain.into_iter().rev() {

@@ -142,7 +142,8 @@ impl<'a> Builder<'a> {
 
     fn enter(&mut self, target: NodeRef<'a>) -> Result<(), Error> {
         let element: &'a Element = target.element;
-        let is_target = |visited: &NodeRef<'_>| ptr::eq(visited.element, element) && visited.scope == target.scope;
+        let is_target =
+            |visited: &NodeRef<'_>| ptr::eq(visited.element, element) && visited.scope == target.scope;
         if let Some(start) = self.path.iter().position(is_target) {
             let cycle = self.path[start..].iter().map(|node| node.element.quoted_name());
             return Err(Error::Cycle { at: element.place(), cycle: listed(cycle) });
@@ -297,7 +298,10 @@ impl<'a> Builder<'a> {
             multiscatter_tint: self.slot_within(node, "multiscatter_tint", Accepts::Unit)?,
             tangent_u: self.direction(node, "tangent_u", Geometry::Tangent)?,
         };
-        leaf.check(|cause| Error::OutOfRange { at: node.place_of(cause.name()), message: cause.to_string() })?;
+        leaf.check(|cause| Error::OutOfRange {
+            at: node.place_of(cause.name()),
+            message: cause.to_string(),
+        })?;
         Ok(leaf)
     }
 
@@ -458,7 +462,8 @@ impl<'a> Builder<'a> {
             return Ok(None);
         }
         let slot: Slot<3> = self.slot(node, input)?;
-        let is_own = slot.register().is_some() && slot.register() == Some(self.patterns.lowering.geometry(own));
+        let is_own =
+            slot.register().is_some() && slot.register() == Some(self.patterns.lowering.geometry(own));
         Ok((!is_own).then_some(slot))
     }
 
@@ -508,4 +513,3 @@ fn varies(node: &Node<'_>, input: &str) -> Error {
         instead: "write the value itself".to_owned(),
     }
 }
-

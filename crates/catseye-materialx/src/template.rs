@@ -76,12 +76,35 @@ pub(crate) enum Leaf {
         multiscatter_tint: Slot<3>,
         tangent_u: Option<Slot<3>>,
     },
-    OrenNayar { color: Slot<3>, roughness: Slot<1>, energy_compensation: bool },
-    Burley { color: Slot<3>, roughness: Slot<1> },
-    Translucent { color: Slot<3> },
-    Sheen { color: Slot<3>, roughness: Slot<1> },
-    Dielectric { tint: Slot<3>, ior: Slot<1>, roughness: Slot<2>, retroreflective: bool, scatter_mode: ScatterMode },
-    Conductor { ior: Slot<3>, extinction: Slot<3>, roughness: Slot<2>, retroreflective: bool },
+    OrenNayar {
+        color: Slot<3>,
+        roughness: Slot<1>,
+        energy_compensation: bool,
+    },
+    Burley {
+        color: Slot<3>,
+        roughness: Slot<1>,
+    },
+    Translucent {
+        color: Slot<3>,
+    },
+    Sheen {
+        color: Slot<3>,
+        roughness: Slot<1>,
+    },
+    Dielectric {
+        tint: Slot<3>,
+        ior: Slot<1>,
+        roughness: Slot<2>,
+        retroreflective: bool,
+        scatter_mode: ScatterMode,
+    },
+    Conductor {
+        ior: Slot<3>,
+        extinction: Slot<3>,
+        roughness: Slot<2>,
+        retroreflective: bool,
+    },
     Schlick {
         color0: Slot<3>,
         color82: Slot<3>,
@@ -136,18 +159,24 @@ impl Leaf {
                 roughness: roughness.at(r),
                 retroreflective: *retroreflective,
             },
-            Self::Schlick { color0, color82, color90, exponent, roughness, retroreflective, scatter_mode } => {
-                Closure::GeneralizedSchlick {
-                    weight,
-                    color0: color0.at(r),
-                    color82: color82.at(r),
-                    color90: color90.at(r),
-                    exponent: exponent.float(r),
-                    roughness: roughness.at(r),
-                    retroreflective: *retroreflective,
-                    scatter_mode: *scatter_mode,
-                }
-            }
+            Self::Schlick {
+                color0,
+                color82,
+                color90,
+                exponent,
+                roughness,
+                retroreflective,
+                scatter_mode,
+            } => Closure::GeneralizedSchlick {
+                weight,
+                color0: color0.at(r),
+                color82: color82.at(r),
+                color90: color90.at(r),
+                exponent: exponent.float(r),
+                roughness: roughness.at(r),
+                retroreflective: *retroreflective,
+                scatter_mode: *scatter_mode,
+            },
         }
     }
 
@@ -177,7 +206,9 @@ impl Leaf {
                 multiscatter_tint.relocate(place);
                 tangent_u.iter_mut().for_each(|slot| slot.relocate(place));
             }
-            Self::OrenNayar { color, roughness, .. } | Self::Burley { color, roughness } | Self::Sheen { color, roughness } => {
+            Self::OrenNayar { color, roughness, .. }
+            | Self::Burley { color, roughness }
+            | Self::Sheen { color, roughness } => {
                 color.relocate(place);
                 roughness.relocate(place);
             }

@@ -65,7 +65,11 @@ pub(crate) struct Texture {
 
 enum Texels {
     /// Four bytes each, with the numbers that they stand for in colour and in alpha.
-    Bytes { pixels: Vec<[u8; 4]>, linear: Box<[f32; 256]>, primaries: Option<&'static ColorSpace> },
+    Bytes {
+        pixels: Vec<[u8; 4]>,
+        linear: Box<[f32; 256]>,
+        primaries: Option<&'static ColorSpace>,
+    },
     Floats(Vec<[f32; 4]>),
 }
 
@@ -75,8 +79,12 @@ impl Texture {
         let picture = open(path)?;
         let (width, height) = (picture.width() as usize, picture.height() as usize);
         let texels = match picture {
-            DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) | DynamicImage::ImageLuma16(_)
-            | DynamicImage::ImageRgb16(_) | DynamicImage::ImageRgba16(_) | DynamicImage::ImageLumaA16(_) => {
+            DynamicImage::ImageRgb32F(_)
+            | DynamicImage::ImageRgba32F(_)
+            | DynamicImage::ImageLuma16(_)
+            | DynamicImage::ImageRgb16(_)
+            | DynamicImage::ImageRgba16(_)
+            | DynamicImage::ImageLumaA16(_) => {
                 let pixels = picture.into_rgba32f().into_vec();
                 let linear = |p: &[f32]| {
                     let [r, g, b] = space.to_linear([p[0], p[1], p[2]]);
@@ -115,7 +123,13 @@ impl Texture {
     }
 
     /// The value at texture coordinates; v points up, the picture's first row is on top.
-    pub(crate) fn look_up(&self, uv: [f32; 2], wrap: [Wrap; 2], filter: Filter, default: [f32; 4]) -> [f32; 4] {
+    pub(crate) fn look_up(
+        &self,
+        uv: [f32; 2],
+        wrap: [Wrap; 2],
+        filter: Filter,
+        default: [f32; 4],
+    ) -> [f32; 4] {
         // Far outside, and where there is no number, nothing can be told apart anyway.
         let [u, v] = uv.map(|x| if x.abs() < 1e6 { x } else { 0.0 });
         let (x, y) = (u * self.width as f32, (1.0 - v) * self.height as f32);

@@ -289,11 +289,8 @@ const REC709_FROM_AP1: [[f32; 3]; 3] = [
     [-0.024_003, -0.128_969, 1.152_972],
 ];
 /// From the primaries' chromaticities; both have the white D65.
-const REC709_FROM_P3: [[f32; 3]; 3] = [
-    [1.224_940, -0.224_940, 0.0],
-    [-0.042_057, 1.042_057, 0.0],
-    [-0.019_638, -0.078_636, 1.098_274],
-];
+const REC709_FROM_P3: [[f32; 3]; 3] =
+    [[1.224_94, -0.224_940, 0.0], [-0.042_057, 1.042_057, 0.0], [-0.019_638, -0.078_636, 1.098_274]];
 
 /// IEC 61966-2-1, the sRGB transfer function.
 pub(crate) fn linear_from_srgb(x: f32) -> f32 {

@@ -330,13 +330,20 @@ fn definitions_that_use_each_other_twice_are_bounded() {
 #[test]
 fn long_chains_of_patterns_are_refused() {
     let nodes = repeated(20_000, |i| {
-        format!("<sin name=\"n{i}\" type=\"float\"><input name=\"in\" type=\"float\" nodename=\"n{}\"/></sin>\n", i + 1)
+        format!(
+            "<sin name=\"n{i}\" type=\"float\"><input name=\"in\" type=\"float\" nodename=\"n{}\"/></sin>\n",
+            i + 1
+        )
     });
     let text = document(&format!(
         "{nodes}<oren_nayar_diffuse_bsdf name=\"bsdf\" type=\"BSDF\"><input name=\"roughness\" type=\"float\" nodename=\"n0\"/></oren_nayar_diffuse_bsdf>"
     ));
     assert_refused(&text, "more than 200 pattern nodes in a chain; simplify or split the document");
-    let problems = catseye_materialx::check_bytes(text.as_bytes(), "hostile.mtlx", &catseye_materialx::Library::default());
+    let problems = catseye_materialx::check_bytes(
+        text.as_bytes(),
+        "hostile.mtlx",
+        &catseye_materialx::Library::default(),
+    );
     assert_eq!(problems.len(), 1, "the last node dangles: {problems:?}");
 }
 
@@ -359,7 +366,8 @@ fn pictures_of_absurd_size_are_refused_without_being_decoded() {
         let path = folder.path().join("m.mtlx");
         std::fs::write(&path, document(nodes)).unwrap();
         let start = Instant::now();
-        let message = Document::load(&path).and_then(|document| document.materials()).unwrap_err().to_string();
+        let message =
+            Document::load(&path).and_then(|document| document.materials()).unwrap_err().to_string();
         assert!(message.contains("the picture \"huge.png\" can't be read"), "{message}");
         assert!(start.elapsed() < MOST_TIME);
         let problems = catseye_materialx::check(&path, &catseye_materialx::Library::default());

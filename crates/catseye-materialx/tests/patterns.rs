@@ -49,8 +49,11 @@ fn assert_near(actual: [f32; 3], expected: [f32; 3], case: &str) {
     }
 }
 
+/// Name, type and value of an input; `@n` is a connection to the node `n`.
+type Input = (&'static str, &'static str, &'static str);
+
 /// One node `p` of type color3 with these inputs.
-fn one(category: &str, inputs: &[(&str, &str, &str)]) -> String {
+fn one(category: &str, inputs: &[Input]) -> String {
     let inputs: String = inputs
         .iter()
         .map(|(name, ty, value)| {
@@ -70,7 +73,7 @@ fn one(category: &str, inputs: &[(&str, &str, &str)]) -> String {
 fn nodes_compute_what_they_are_named_for() {
     let c = "color3";
     let f = "float";
-    let cases: &[(&str, &[(&str, &str, &str)], [f32; 3])] = &[
+    let cases: &[(&str, &[Input], [f32; 3])] = &[
         ("constant", &[("value", c, "0.1, 0.2, 0.3")], [0.1, 0.2, 0.3]),
         ("add", &[("in1", c, "@uuu"), ("in2", f, "0.5")], [0.75; 3]),
         ("subtract", &[("in1", c, "1, 0.9, 0.8"), ("in2", c, "@uuu")], [0.75, 0.65, 0.55]),
@@ -88,14 +91,21 @@ fn nodes_compute_what_they_are_named_for() {
         ("smoothstep", &[("in", c, "@uuu"), ("high", f, "0.5")], [0.5; 3]),
         ("remap", &[("in", c, "@uuu"), ("outlow", f, "0.5"), ("outhigh", f, "1")], [0.625; 3]),
         ("contrast", &[("in", c, "@uuu"), ("amount", f, "0.5")], [0.375; 3]),
-        ("ifgreater", &[("value1", f, "@u"), ("value2", f, "0.2"), ("in1", c, "1, 0, 0"), ("in2", c, "0, 1, 0")], [
-            1.0, 0.0, 0.0,
-        ]),
+        (
+            "ifgreater",
+            &[("value1", f, "@u"), ("value2", f, "0.2"), ("in1", c, "1, 0, 0"), ("in2", c, "0, 1, 0")],
+            [1.0, 0.0, 0.0],
+        ),
         ("ramplr", &[("valuel", c, "0, 0, 0"), ("valuer", c, "1, 1, 0")], [0.25, 0.25, 0.0]),
         ("ramptb", &[("valuet", c, "1, 1, 1"), ("valueb", c, "0, 0, 0")], [0.5; 3]),
         (
             "ramp4",
-            &[("valuetl", c, "1, 0, 0"), ("valuetr", c, "0, 1, 0"), ("valuebl", c, "0, 0, 1"), ("valuebr", c, "0, 0, 0")],
+            &[
+                ("valuetl", c, "1, 0, 0"),
+                ("valuetr", c, "0, 1, 0"),
+                ("valuebl", c, "0, 0, 1"),
+                ("valuebr", c, "0, 0, 0"),
+            ],
             [0.375, 0.125, 0.375],
         ),
         ("splitlr", &[("valuel", c, "1, 0, 0"), ("valuer", c, "0, 1, 0")], [1.0, 0.0, 0.0]),
@@ -190,7 +200,9 @@ fn emission_opacity_and_looks() {
 #[test]
 fn pictures_are_looked_up_in_their_colour_space() {
     let folder = tempfile::tempdir().unwrap();
-    image::RgbImage::from_pixel(4, 4, image::Rgb([255, 188, 0])).save(folder.path().join("flat.png")).unwrap();
+    image::RgbImage::from_pixel(4, 4, image::Rgb([255, 188, 0]))
+        .save(folder.path().join("flat.png"))
+        .unwrap();
     let nodes = r#"<oren_nayar_diffuse_bsdf name="bsdf" type="BSDF"><input name="color" type="color3" nodename="p" /></oren_nayar_diffuse_bsdf>
         <image name="p" type="color3" fileprefix="./"><input name="file" type="filename" value="flat.png" colorspace="srgb_texture" /></image>"#;
     let path = folder.path().join("m.mtlx");

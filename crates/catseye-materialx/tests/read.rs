@@ -28,14 +28,7 @@ fn diffuse(color: [f32; 3], roughness: f32) -> Closure {
 
 fn dielectric(ior: f32, roughness: f32) -> Closure {
     let (weight, tint, scatter_mode) = (1.0, [1.0; 3], ScatterMode::Reflect);
-    Closure::Dielectric {
-        weight,
-        tint,
-        ior,
-        roughness: [roughness; 2],
-        retroreflective: false,
-        scatter_mode,
-    }
+    Closure::Dielectric { weight, tint, ior, roughness: [roughness; 2], retroreflective: false, scatter_mode }
 }
 
 fn proposal_example(roughness: f32) -> Closure {

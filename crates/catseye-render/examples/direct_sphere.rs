@@ -28,8 +28,14 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     scene.light(DistantLight::new(Vec3::new(angle.sin(), 0.0, angle.cos()), 1e-4, Vec3::splat(3.0)));
 
     let (spp, filter) = (64, Filter::pixel());
-    let settings =
-        RenderSettings { width: pixels, height: pixels, spp, max_depth: 1, filter, ..RenderSettings::default() };
+    let settings = RenderSettings {
+        width: pixels,
+        height: pixels,
+        spp,
+        max_depth: 1,
+        filter,
+        ..RenderSettings::default()
+    };
     write_exr(&render(&scene.build()?, &settings, &|_| ())?, Path::new(output))?;
     Ok(())
 }

@@ -3,7 +3,7 @@
 use std::cell::RefCell;
 
 use catseye::Model;
-use catseye_materialx::{Material, Patterns};
+use catseye_materialx::{Closure, Material, Patterns};
 use glam::{Vec2, Vec3};
 
 use crate::accel::{Accel, Primitive};
@@ -32,7 +32,16 @@ struct Surface {
     opacity: f32,
     emission: Vec3,
     /// What it is at each point, if it is not the same everywhere.
-    patterns: Option<(Patterns, Model)>,
+    patterns: Option<Varying>,
+}
+
+/// A surface that is not the same everywhere.
+#[derive(Debug)]
+struct Varying {
+    patterns: Patterns,
+    model: Model,
+    /// Factor on its BSDF.
+    tint: Vec3,
 }
 
 /// A surface at a point.
@@ -96,12 +105,7 @@ impl SceneBuilder {
 
     /// Adds a material that lets the share `1 - opacity` of light pass straight through.
     pub fn translucent_material(&mut self, bsdf: Bsdf, opacity: f32) -> MaterialId {
-        self.surface(Surface {
-            bsdf,
-            opacity: opacity.clamp(0.0, 1.0),
-            emission: Vec3::ZERO,
-            patterns: None,
-        })
+        self.surface(Surface { bsdf, opacity: opacity.clamp(0.0, 1.0), emission: Vec3::ZERO, patterns: None })
     }
 
     fn surface(&mut self, surface: Surface) -> MaterialId {
@@ -114,11 +118,23 @@ impl SceneBuilder {
     /// # Errors
     /// As [`Bsdf::with_model`].
     pub fn materialx(&mut self, material: &Material, model: Model) -> Result<MaterialId, Error> {
+        self.tinted_materialx(material, model, Vec3::ONE)
+    }
+
+    /// As [`SceneBuilder::materialx`], what is scattered multiplied by a colour.
+    pub(crate) fn tinted_materialx(
+        &mut self,
+        material: &Material,
+        model: Model,
+        tint: Vec3,
+    ) -> Result<MaterialId, Error> {
+        let closure = tinted(material.bsdf.clone(), tint);
+        let patterns = material.patterns.clone();
         Ok(self.surface(Surface {
-            bsdf: Bsdf::with_model(&material.bsdf, model)?,
+            bsdf: Bsdf::with_model(&closure, model)?,
             opacity: material.opacity.clamp(0.0, 1.0),
             emission: Vec3::from(material.emission),
-            patterns: material.patterns.clone().map(|patterns| (patterns, model)),
+            patterns: patterns.map(|patterns| Varying { patterns, model, tint }),
         }))
     }
 
@@ -204,9 +220,17 @@ impl SceneBuilder {
     }
 }
 
+/// A closure times a colour.
+fn tinted(closure: Closure, tint: Vec3) -> Closure {
+    if tint == Vec3::ONE {
+        return closure;
+    }
+    Closure::Multiply { closure: Box::new(closure), factor: tint.to_array() }
+}
+
 impl Surface {
     fn is_opaque(&self) -> bool {
-        self.opacity >= 1.0 && self.patterns.as_ref().is_none_or(|(patterns, _)| !patterns.has_opacity())
+        self.opacity >= 1.0 && self.patterns.as_ref().is_none_or(|varying| !varying.patterns.has_opacity())
     }
 }
 
@@ -248,11 +272,12 @@ impl Scene {
     /// The surface at a point that a ray of this direction meets.
     pub(crate) fn surface(&self, hit: &Hit, direction: Vec3) -> SurfaceAt<'_> {
         let surface = &self.surfaces[hit.material as usize];
-        if let Some((patterns, model)) = &surface.patterns {
-            let here = self.evaluate(patterns, hit, direction);
+        if let Some(varying) = &surface.patterns {
+            let here = self.evaluate(&varying.patterns, hit, direction);
+            let emission = Vec3::from(here.emission);
             // A point that can't be shaded is shaded like the default point, which can.
-            if let Ok(bsdf) = Bsdf::at_point(&here.bsdf, *model) {
-                return SurfaceAt { bsdf: BsdfAt::Here(bsdf), emission: Vec3::from(here.emission) };
+            if let Ok(bsdf) = Bsdf::at_point(&tinted(here.bsdf, varying.tint), varying.model) {
+                return SurfaceAt { bsdf: BsdfAt::Here(bsdf), emission };
             }
         }
         SurfaceAt { bsdf: BsdfAt::Everywhere(&surface.bsdf), emission: surface.emission }
@@ -268,7 +293,9 @@ impl Scene {
     pub(crate) fn opacity(&self, hit: &Hit, direction: Vec3) -> f32 {
         let surface = &self.surfaces[hit.material as usize];
         match &surface.patterns {
-            Some((patterns, _)) if patterns.has_opacity() => self.evaluate(patterns, hit, direction).opacity,
+            Some(varying) if varying.patterns.has_opacity() => {
+                self.evaluate(&varying.patterns, hit, direction).opacity
+            }
             _ => surface.opacity,
         }
     }

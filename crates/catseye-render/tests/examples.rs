@@ -1,7 +1,7 @@
 //! Promise: MaterialX's own example materials load and render; what doesn't says why.
 //!
-//! Runs where MATERIALX_SEARCH_PATH names a checkout of MaterialX (with `libraries` and `resources`); fails without one
-//! where CATSEYE_REQUIRE=all is set. `--nocapture` prints the table.
+//! Runs where `MATERIALX_SEARCH_PATH` names a checkout of MaterialX (with `libraries` and `resources`); fails without one
+//! where `CATSEYE_REQUIRE=all` is set. `--nocapture` prints the table.
 
 use std::{
     fs,
@@ -17,8 +17,8 @@ use catseye_render::{RenderSettings, Scene, render};
 const KNOWN_MISSING: &[&str] = &["simple_hair", "onyx_hextiled"];
 
 fn documents(folder: &Path, found: &mut Vec<PathBuf>) {
-    for entry in fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
+    for entry in fs::read_dir(folder).expect("the folder can be read") {
+        let path = entry.expect("the folder can be read").path();
         if path.is_dir() {
             documents(&path, found);
         } else if path.extension().is_some_and(|extension| extension == "mtlx") {

@@ -152,7 +152,9 @@ impl Lowering {
             "constant" => self.register(args, "value"),
             "dot" | "transformpoint" | "transformvector" | "transformnormal" => self.register(args, "in"),
             "image" | "tiledimage" => return self.image(args, w),
-            "texcoord" | "position" | "normal" | "tangent" | "bitangent" | "viewdirection" => self.geometric(args, w),
+            "texcoord" | "position" | "normal" | "tangent" | "bitangent" | "viewdirection" => {
+                self.geometric(args, w)
+            }
             "geompropvalue" => self.register(args, "default"),
             "geomcolor" => self.number(1.0, w),
             "time" | "frame" => self.number(0.0, w),
@@ -205,7 +207,8 @@ impl Lowering {
                 self.op(Op::Multiply, w, &[x, share])
             }
             "ifgreater" | "ifgreatereq" | "ifequal" => {
-                let [a, b, yes, no] = ["value1", "value2", "in1", "in2"].map(|name| self.register(args, name));
+                let [a, b, yes, no] =
+                    ["value1", "value2", "in1", "in2"].map(|name| self.register(args, name));
                 let op = match category {
                     "ifgreater" => Op::Greater,
                     "ifgreatereq" => Op::GreaterOrEqual,
@@ -267,8 +270,11 @@ impl Lowering {
                     return None;
                 }
                 let jitter = self.register(args, "jitter");
-                let (op, at) =
-                    if category == "worleynoise2d" { (Op::Worley2, "texcoord") } else { (Op::Worley3, "position") };
+                let (op, at) = if category == "worleynoise2d" {
+                    (Op::Worley2, "texcoord")
+                } else {
+                    (Op::Worley3, "position")
+                };
                 let position = self.register(args, at);
                 self.op(op, w, &[position, jitter])
             }
@@ -297,7 +303,13 @@ impl Lowering {
 
     fn select(&mut self, w: u8, condition: u32, yes: u32, no: u32) -> u32 {
         match self.assembler.constant(condition) {
-            Some([x, ..]) => if x != 0.0 { yes } else { no },
+            Some([x, ..]) => {
+                if x != 0.0 {
+                    yes
+                } else {
+                    no
+                }
+            }
             None => self.op(Op::Select, w, &[condition, yes, no]),
         }
     }
@@ -358,7 +370,8 @@ impl Lowering {
 
     fn range(&mut self, args: &Arguments<'_>, w: u8) -> u32 {
         let [x, in_low, in_high, gamma, out_low, out_high, clamp] =
-            ["in", "inlow", "inhigh", "gamma", "outlow", "outhigh", "doclamp"].map(|name| self.register(args, name));
+            ["in", "inlow", "inhigh", "gamma", "outlow", "outhigh", "doclamp"]
+                .map(|name| self.register(args, name));
         let (zero, one) = (self.number(0.0, w), self.number(1.0, w));
         let share = self.remap(w, x, [in_low, in_high, zero, one]);
         let exponent = self.op(Op::Divide, w, &[one, gamma]);
@@ -531,7 +544,8 @@ impl Lowering {
     }
 
     fn with_alpha_of(&mut self, color: u32, x: u32) -> u32 {
-        let parts = [self.extract(color, 0), self.extract(color, 1), self.extract(color, 2), self.extract(x, 3)];
+        let parts =
+            [self.extract(color, 0), self.extract(color, 1), self.extract(color, 2), self.extract(x, 3)];
         self.op(Op::Combine, 4, &parts)
     }
 
@@ -604,8 +618,9 @@ impl Lowering {
     fn combine_vectors(&mut self, args: &Arguments<'_>, ty: Type) -> u32 {
         let (a, b) = (self.register(args, "in1"), self.register(args, "in2"));
         let split = if self.assembler.width(a) == 2 { 2 } else { 3 };
-        let parts: Vec<u32> =
-            (0..4_u8).map(|i| if i < split { self.extract(a, i) } else { self.extract(b, i - split) }).collect();
+        let parts: Vec<u32> = (0..4_u8)
+            .map(|i| if i < split { self.extract(a, i) } else { self.extract(b, i - split) })
+            .collect();
         self.op(Op::Combine, ty.width(), &parts)
     }
 
@@ -665,11 +680,13 @@ impl Lowering {
 
     fn noise(&mut self, args: &Arguments<'_>, w: u8) -> Option<u32> {
         let category = args.signature.category;
-        let (op, at) = if category.ends_with("2d") { (Op::Noise2, "texcoord") } else { (Op::Noise3, "position") };
+        let (op, at) =
+            if category.ends_with("2d") { (Op::Noise2, "texcoord") } else { (Op::Noise3, "position") };
         let width = if at == "texcoord" { 2 } else { 3 };
         let mut at = self.register(args, at);
         let amplitude = self.register(args, "amplitude");
-        let amplitude = if self.assembler.width(amplitude) == 1 { self.splat(amplitude, w) } else { amplitude };
+        let amplitude =
+            if self.assembler.width(amplitude) == 1 { self.splat(amplitude, w) } else { amplitude };
         if category.starts_with("noise") {
             let pivot = self.register(args, "pivot");
             let pivot = self.splat(pivot, w);

@@ -61,9 +61,8 @@ const SCALE_3D: f32 = 0.982;
 pub(crate) fn gradient_2d([x, y]: [f32; 2], width: u8) -> Lanes {
     let ((xi, xf), (yi, yf)) = (split(x), split(y));
     let (u, v) = (fade(xf), fade(yf));
-    let corners = [(0, 0), (1, 0), (0, 1), (1, 1)].map(|(i, j)| {
-        (hash(&[xi.wrapping_add(i), yi.wrapping_add(j)]), xf - i as f32, yf - j as f32)
-    });
+    let corners = [(0, 0), (1, 0), (0, 1), (1, 1)]
+        .map(|(i, j)| (hash(&[xi.wrapping_add(i), yi.wrapping_add(j)]), xf - i as f32, yf - j as f32));
     components(width, |shift, mask| {
         let [a, b, c, d] = corners.map(|(hash, x, y)| slope_2d((hash >> shift) & mask, x, y));
         SCALE_2D * lerp(lerp(a, b, u), lerp(c, d, u), v)
@@ -198,7 +197,12 @@ mod tests {
     #[test]
     fn extreme_positions_are_harmless() {
         for x in [f32::MAX, f32::MIN, f32::INFINITY, f32::NAN, 1e30] {
-            let _ = (gradient_2d([x, x], 4), gradient_3d([x, 0.0, x], 3), cell(&[x, x, x]), worley_3d([x; 3], 1.0));
+            let _ = (
+                gradient_2d([x, x], 4),
+                gradient_3d([x, 0.0, x], 3),
+                cell(&[x, x, x]),
+                worley_3d([x; 3], 1.0),
+            );
         }
     }
 }

@@ -80,7 +80,11 @@ pub(crate) enum Op {
     Worley2,
     Worley3,
     /// A texture at texture coordinates, with a default where nothing is.
-    Image { texture: u32, wrap: [Wrap; 2], filter: Filter },
+    Image {
+        texture: u32,
+        wrap: [Wrap; 2],
+        filter: Filter,
+    },
     /// The refractive index and the extinction of a metal of this reflectance and edge colour (Gulbrandsen 2014).
     ArtisticIndex,
     ArtisticExtinction,
@@ -97,7 +101,13 @@ impl Op {
     }
 
     /// The result, its components beyond `width` 0.
-    pub(crate) fn apply(self, width: u8, s: &[Lanes; 4], point: &ShadingPoint, textures: &[Arc<Texture>]) -> Lanes {
+    pub(crate) fn apply(
+        self,
+        width: u8,
+        s: &[Lanes; 4],
+        point: &ShadingPoint,
+        textures: &[Arc<Texture>],
+    ) -> Lanes {
         let mut result = self.lanes(width, s, point, textures);
         result[usize::from(width).min(4)..].fill(0.0);
         result
@@ -140,19 +150,22 @@ impl Op {
             Self::Greater => truth(a[0] > b[0]),
             Self::GreaterOrEqual => truth(a[0] >= b[0]),
             Self::Equal => truth(a[0] == b[0]),
-            Self::Select => if a[0] != 0.0 { *b } else { *c },
+            Self::Select => {
+                if a[0] != 0.0 {
+                    *b
+                } else {
+                    *c
+                }
+            }
             Self::Splat => [a[0]; 4],
             Self::Extract(i) => scalar(a[usize::from(i) & 3]),
             Self::Combine => core::array::from_fn(|i| s[i][0]),
             Self::Dot => scalar(dot(a, b)),
             Self::Length => scalar(dot(a, a).sqrt()),
             Self::Normalize => normalize(a),
-            Self::Cross => [
-                a[1] * b[2] - a[2] * b[1],
-                a[2] * b[0] - a[0] * b[2],
-                a[0] * b[1] - a[1] * b[0],
-                0.0,
-            ],
+            Self::Cross => {
+                [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0], 0.0]
+            }
             Self::RgbToHsv => hsv_from_rgb(a),
             Self::HsvToRgb => rgb_from_hsv(a),
             Self::Noise2 => noise::gradient_2d([a[0], a[1]], width),

@@ -137,7 +137,6 @@ const fn node(category: &'static str, types: &'static [Type], inputs: &'static [
     Signature { category, types, inputs, outputs: &[] }
 }
 
-
 const FLOAT: &[Type] = &[Type::Float];
 const BOOLEAN: &[Type] = &[Type::Boolean];
 
@@ -289,7 +288,11 @@ static SIGNATURES: &[Signature] = &[
     node("outside", FLOATS, &[same("in", 0.0), float("mask", 0.0)]),
     node("ifgreater", VALUES, IF),
     node("ifgreatereq", VALUES, IF),
-    node("ifequal", VALUES, &[scalar("value1", 0.0), scalar("value2", 0.0), same("in1", 0.0), same("in2", 0.0)]),
+    node(
+        "ifequal",
+        VALUES,
+        &[scalar("value1", 0.0), scalar("value2", 0.0), same("in1", 0.0), same("in2", 0.0)],
+    ),
     node(
         "switch",
         VALUES,
@@ -328,7 +331,11 @@ static SIGNATURES: &[Signature] = &[
             p("axis", Port::Is(Type::Vector3), Fallback::Lanes([0.0, 1.0, 0.0, 0.0])),
         ],
     ),
-    node("transformmatrix", &[Type::Vector3], &[vector3("in", 0.0), p("mat", Port::Is(Type::Matrix33), Fallback::Text(""))]),
+    node(
+        "transformmatrix",
+        &[Type::Vector3],
+        &[vector3("in", 0.0), p("mat", Port::Is(Type::Matrix33), Fallback::Text(""))],
+    ),
     node("transformpoint", VECTOR3, &[vector3("in", 0.0), word("fromspace", ""), word("tospace", "")]),
     node("transformvector", VECTOR3, &[vector3("in", 0.0), word("fromspace", ""), word("tospace", "")]),
     node("transformnormal", VECTOR3, &[vector3("in", 0.0), word("fromspace", ""), word("tospace", "")]),
@@ -350,7 +357,11 @@ static SIGNATURES: &[Signature] = &[
         COLOR,
         &[
             same("in", 0.0),
-            p("lumacoeffs", Port::Is(Type::Color3), Fallback::Lanes([0.272_228_7, 0.674_081_8, 0.053_689_5, 0.0])),
+            p(
+                "lumacoeffs",
+                Port::Is(Type::Color3),
+                Fallback::Lanes([0.272_228_7, 0.674_081_8, 0.053_689_5, 0.0]),
+            ),
         ],
     ),
     node("rgbtohsv", COLOR, UNARY),
@@ -366,7 +377,11 @@ static SIGNATURES: &[Signature] = &[
         &[
             same("in", 0.0),
             float("amount", 1.0),
-            p("lumacoeffs", Port::Is(Type::Color3), Fallback::Lanes([0.272_228_7, 0.674_081_8, 0.053_689_5, 0.0])),
+            p(
+                "lumacoeffs",
+                Port::Is(Type::Color3),
+                Fallback::Lanes([0.272_228_7, 0.674_081_8, 0.053_689_5, 0.0]),
+            ),
         ],
     ),
     node("extract", FLOAT, &[numeric("in"), integer("index", 0.0)]),
@@ -374,7 +389,11 @@ static SIGNATURES: &[Signature] = &[
     node("swizzle", VALUES, &[numeric("in"), word("channels", "")]),
     node("combine2", VECTOR2, &[float("in1", 0.0), float("in2", 0.0)]),
     node("combine2", &[Type::Color4, Type::Vector4], &[numeric("in1"), numeric("in2")]),
-    node("combine3", &[Type::Color3, Type::Vector3], &[float("in1", 0.0), float("in2", 0.0), float("in3", 0.0)]),
+    node(
+        "combine3",
+        &[Type::Color3, Type::Vector3],
+        &[float("in1", 0.0), float("in2", 0.0), float("in3", 0.0)],
+    ),
     node(
         "combine4",
         &[Type::Color4, Type::Vector4],
@@ -435,8 +454,16 @@ static SIGNATURES: &[Signature] = &[
             integer("operationorder", 0.0),
         ],
     ),
-    node("noise2d", FLOATS, &[p("amplitude", Port::Numeric, Fallback::Number(1.0)), float("pivot", 0.0), texcoord()]),
-    node("noise3d", FLOATS, &[p("amplitude", Port::Numeric, Fallback::Number(1.0)), float("pivot", 0.0), position()]),
+    node(
+        "noise2d",
+        FLOATS,
+        &[p("amplitude", Port::Numeric, Fallback::Number(1.0)), float("pivot", 0.0), texcoord()],
+    ),
+    node(
+        "noise3d",
+        FLOATS,
+        &[p("amplitude", Port::Numeric, Fallback::Number(1.0)), float("pivot", 0.0), position()],
+    ),
     node(
         "fractal2d",
         FLOATS,
@@ -471,14 +498,22 @@ static SIGNATURES: &[Signature] = &[
         &[Type::Float, Type::Vector2, Type::Vector3],
         &[position(), float("jitter", 1.0), integer("style", 0.0)],
     ),
-    node("checkerboard", &[Type::Color3], &[
-        same("color1", 1.0),
-        same("color2", 0.0),
-        vector2("uvtiling", 8.0),
-        vector2("uvoffset", 0.0),
-        texcoord(),
-    ]),
-    node("randomfloat", FLOAT, &[scalar("in", 0.0), float("min", 0.0), float("max", 1.0), integer("seed", 0.0)]),
+    node(
+        "checkerboard",
+        &[Type::Color3],
+        &[
+            same("color1", 1.0),
+            same("color2", 0.0),
+            vector2("uvtiling", 8.0),
+            vector2("uvoffset", 0.0),
+            texcoord(),
+        ],
+    ),
+    node(
+        "randomfloat",
+        FLOAT,
+        &[scalar("in", 0.0), float("min", 0.0), float("max", 1.0), integer("seed", 0.0)],
+    ),
     node("roughness_anisotropy", VECTOR2, &[float("roughness", 0.0), float("anisotropy", 0.0)]),
     node("roughness_dual", VECTOR2, &[vector2("roughness", 0.0)]),
     Signature {

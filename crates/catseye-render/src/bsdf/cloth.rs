@@ -112,7 +112,8 @@ mod tests {
 
     #[test]
     fn albedos_are_the_means_of_what_is_evaluated() {
-        let lobes = [Cloth::burley(Vec3::ONE, 0.4), Cloth::translucent(Vec3::ONE), Cloth::sheen(Vec3::ONE, 0.3)];
+        let lobes =
+            [Cloth::burley(Vec3::ONE, 0.4), Cloth::translucent(Vec3::ONE), Cloth::sheen(Vec3::ONE, 0.3)];
         for lobe in lobes {
             for cos in [0.2_f32, 0.6, 1.0] {
                 let wo = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
@@ -120,7 +121,11 @@ mod tests {
                     let wi = lobe.sample(u);
                     lobe.eval(wo, wi).x * wi.z.abs() / lobe.pdf(wi)
                 });
-                assert!((lobe.albedo(wo).x - mean).abs() < 0.01, "{lobe:?} {cos}: {} {mean}", lobe.albedo(wo).x);
+                assert!(
+                    (lobe.albedo(wo).x - mean).abs() < 0.01,
+                    "{lobe:?} {cos}: {} {mean}",
+                    lobe.albedo(wo).x
+                );
             }
         }
     }

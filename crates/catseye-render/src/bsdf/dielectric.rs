@@ -192,7 +192,8 @@ fn shares(ior: f32, ggx: Ggx, smooth: bool) -> [Shares; 2] {
 fn stored_shares(ior: f32, alpha: f32, smooth: bool) -> Arc<[Shares; 2]> {
     type Store = RwLock<HashMap<(u16, u16, bool), Arc<[Shares; 2]>>>;
     static STORE: LazyLock<Store> = LazyLock::new(Store::default);
-    let (ior_step, alpha_step) = ((ior.min(8.0) * 64.0).round().max(1.0), (alpha.sqrt() * 32.0).round().max(1.0));
+    let (ior_step, alpha_step) =
+        ((ior.min(8.0) * 64.0).round().max(1.0), (alpha.sqrt() * 32.0).round().max(1.0));
     let key = (ior_step as u16, alpha_step as u16, smooth);
     if let Some(known) = STORE.read().unwrap_or_else(PoisonError::into_inner).get(&key) {
         return Arc::clone(known);

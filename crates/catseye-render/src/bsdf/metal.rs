@@ -24,9 +24,7 @@ pub(crate) enum Fresnel {
 impl Fresnel {
     pub(crate) fn at(&self, cos: f32) -> Vec3 {
         match *self {
-            Self::Conductor { n, k } => {
-                Vec3::from_array(std::array::from_fn(|i| conductor(cos, n[i], k[i])))
-            }
+            Self::Conductor { n, k } => Vec3::from_array(std::array::from_fn(|i| conductor(cos, n[i], k[i]))),
             Self::Schlick { at_0, at_82, at_90, exponent } => schlick(cos, at_0, at_82, at_90, exponent),
         }
     }
@@ -148,7 +146,10 @@ mod tests {
     #[test]
     fn gold_is_golden_and_white_at_grazing() {
         let [r, g, b] = gold().at(1.0).to_array();
-        assert!((r - 0.944).abs() < 2e-3 && (g - 0.776).abs() < 2e-3 && (b - 0.373).abs() < 2e-3, "{r} {g} {b}");
+        assert!(
+            (r - 0.944).abs() < 2e-3 && (g - 0.776).abs() < 2e-3 && (b - 0.373).abs() < 2e-3,
+            "{r} {g} {b}"
+        );
         assert!(gold().at(0.0).min_element() > 0.999);
     }
 
@@ -164,12 +165,8 @@ mod tests {
 
     #[test]
     fn albedos_are_about_the_means_of_the_weights() {
-        let schlick = Fresnel::Schlick {
-            at_0: Vec3::splat(0.04),
-            at_82: Vec3::ONE,
-            at_90: Vec3::ONE,
-            exponent: 5.0,
-        };
+        let schlick =
+            Fresnel::Schlick { at_0: Vec3::splat(0.04), at_82: Vec3::ONE, at_90: Vec3::ONE, exponent: 5.0 };
         for (fresnel, tolerance) in [(gold(), 0.03), (schlick, 0.01)] {
             for alpha in [0.05, 0.25, 1.0] {
                 let lobe = Metal::new(fresnel, [alpha; 2]);

@@ -149,7 +149,9 @@ impl Builder {
                     }),
                 }
             }
-            Closure::Layer { top, base } => Ok(Node::Layer { top: self.boxed(top)?, base: self.boxed(base)? }),
+            Closure::Layer { top, base } => {
+                Ok(Node::Layer { top: self.boxed(top)?, base: self.boxed(base)? })
+            }
             Closure::Add { a, b } => Ok(Node::Add { a: self.boxed(a)?, b: self.boxed(b)? }),
             Closure::Multiply { closure, factor } => {
                 Ok(Node::Multiply { closure: self.boxed(closure)?, factor: Vec3::from(*factor) })
@@ -192,18 +194,30 @@ impl Builder {
             Closure::BurleyDiffuse { weight, color: c, roughness } => {
                 (weight, LobeKind::Cloth(Cloth::burley(color(c), *roughness)))
             }
-            Closure::Translucent { weight, color: c } => (weight, LobeKind::Cloth(Cloth::translucent(color(c)))),
+            Closure::Translucent { weight, color: c } => {
+                (weight, LobeKind::Cloth(Cloth::translucent(color(c))))
+            }
             Closure::Sheen { weight, color: c, roughness } => {
                 (weight, LobeKind::Cloth(Cloth::sheen(color(c), *roughness)))
             }
-            Closure::Dielectric { weight, tint, ior, roughness, scatter_mode, .. } => {
-                (weight, LobeKind::Dielectric(self.dielectric(Vec3::from(*tint), *ior, *roughness, *scatter_mode)))
-            }
+            Closure::Dielectric { weight, tint, ior, roughness, scatter_mode, .. } => (
+                weight,
+                LobeKind::Dielectric(self.dielectric(Vec3::from(*tint), *ior, *roughness, *scatter_mode)),
+            ),
             Closure::Conductor { weight, ior, extinction, roughness, .. } => {
                 let fresnel = Fresnel::Conductor { n: Vec3::from(*ior), k: Vec3::from(*extinction) };
                 (weight, LobeKind::Metal(Metal::new(fresnel, *roughness)))
             }
-            Closure::GeneralizedSchlick { weight, color0, color82, color90, exponent, roughness, scatter_mode, .. } => {
+            Closure::GeneralizedSchlick {
+                weight,
+                color0,
+                color82,
+                color90,
+                exponent,
+                roughness,
+                scatter_mode,
+                ..
+            } => {
                 let kind = if *scatter_mode == ScatterMode::Reflect {
                     let [at_0, at_82, at_90] = [color0, color82, color90].map(color);
                     let fresnel = Fresnel::Schlick { at_0, at_82, at_90, exponent: exponent.max(0.0) };

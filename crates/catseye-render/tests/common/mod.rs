@@ -17,7 +17,14 @@ pub(crate) fn diffuse(color: f32, roughness: f32) -> Closure {
 }
 
 pub(crate) fn dielectric(roughness: [f32; 2], scatter_mode: ScatterMode) -> Closure {
-    Closure::Dielectric { weight: 1.0, tint: [1.0; 3], ior: 1.5, roughness, retroreflective: false, scatter_mode }
+    Closure::Dielectric {
+        weight: 1.0,
+        tint: [1.0; 3],
+        ior: 1.5,
+        roughness,
+        retroreflective: false,
+        scatter_mode,
+    }
 }
 
 pub(crate) fn layer(top: Closure, base: Closure) -> Closure {
