@@ -35,8 +35,8 @@
 //! # What is read
 //!
 //! Documents of version 1.38 and 1.39: `surfacematerial`, `surface` (`bsdf`, `edf`, `opacity`), `surface_unlit`, nodegraphs with
-//! interface inputs, inside one another too, `xi:include`, looks, `fileprefix`, the colour spaces that MaterialX defines except
-//! Adobe RGB, also inherited from an element further out. Units are ignored: [`Document::warnings`] says where.
+//! interface inputs, inside one another too, `xi:include`, looks, `fileprefix`, the colour spaces that MaterialX defines,
+//! also inherited from an element further out. Units are ignored: [`Document::warnings`] says where.
 //!
 //! - BSDFs: `retro_reflective_bsdf`, `oren_nayar_diffuse_bsdf`, `burley_diffuse_bsdf`, `dielectric_bsdf`, `conductor_bsdf`,
 //!   `generalized_schlick_bsdf` (these three with `retroreflective`), `sheen_bsdf`, `translucent_bsdf`, `mix`, `layer`, `add`,

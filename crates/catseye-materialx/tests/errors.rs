@@ -191,7 +191,7 @@ fn inputs() {
             ),
             ":3:1: retro_reflective_bsdf \"bsdf\", input \"tint\": colour space \"cmyk\" is not supported; \
              lin_rec709, raw, none, srgb_texture, g18_rec709, g22_rec709, rec709_display, acescg, g22_ap1, \
-             lin_displayp3, srgb_displayp3 are",
+             lin_adobergb, adobergb, lin_displayp3, srgb_displayp3 are",
         ),
     ]);
 }

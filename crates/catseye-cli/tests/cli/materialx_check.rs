@@ -14,8 +14,8 @@ fn every_problem_is_a_line_and_the_exit_code_is_1() {
     let outcome = bench.catseye("materialx check bad.mtlx good.mtlx missing.mtlx", "");
     assert_eq!(outcome.code, 1);
     let lines: Vec<&str> = outcome.stdout.lines().collect();
-    assert!(lines[0].starts_with("bad.mtlx:2:28: add \"a\", input \"in1\": "), "{lines:?}");
-    assert!(lines[1].starts_with("bad.mtlx:3:32: image \"i\", input \"file\": "), "{lines:?}");
+    assert!(lines[0].starts_with("bad.mtlx:2:27: add \"a\", input \"in1\": "), "{lines:?}");
+    assert!(lines[1].starts_with("bad.mtlx:3:31: image \"i\", input \"file\": "), "{lines:?}");
     assert_eq!(lines[2], "good.mtlx: no problems");
     assert!(lines[3].starts_with("missing.mtlx: can't be read: "), "{lines:?}");
     assert_eq!(outcome.stderr, "catseye: 3 problems in 3 files\n");

@@ -314,7 +314,7 @@ static SIGNATURES: &[Signature] = &[
     node("or", BOOLEAN, LOGIC),
     node("xor", BOOLEAN, LOGIC),
     node("not", BOOLEAN, &[boolean("in")]),
-    node("dot", VALUES, UNARY),
+    node("dot", VALUES, &[same("in", 0.0), word("note", "")]),
     node("normalize", VECTOR, UNARY),
     node("magnitude", FLOAT, &[numeric("in")]),
     node("distance", FLOAT, &[numeric("in1"), numeric("in2")]),
