@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use anyhow::Result;
 
-#[expect(dead_code, reason = "only the compact fit's table is for shading languages")]
+#[expect(dead_code, reason = "generated; only the compact fit's table is for shading languages")]
 #[path = "../../crates/catseye/src/albedo/tables.rs"]
 mod tables;
 

@@ -24,7 +24,7 @@ enum Verb {
     Check(Check),
 }
 
-/// Write the data library that adds retro_reflective_bsdf to MaterialX 1.39
+/// Write the data library that adds `retro_reflective_bsdf` to MaterialX 1.39
 ///
 /// Writes the folder DIR/catseye, over an earlier one of ours. Add DIR to MaterialX's search path and load the library `catseye`, or
 /// let DIR be MaterialX's own folder `libraries`, where it is found by itself. docs/materialx.md shows both.
