@@ -9,7 +9,7 @@ use catseye_materialx::{Library, SearchPath};
 #[derive(Debug, clap::Args)]
 pub(crate) struct LibraryArgs {
     /// Folder that files may be read from, and whose `libraries` define nodes; may be given several times [default: those
-    /// of MATERIALX_SEARCH_PATH]
+    /// of `MATERIALX_SEARCH_PATH`]
     #[arg(long = "materialx-path", value_name = "DIR")]
     folders: Vec<PathBuf>,
 }
