@@ -4,7 +4,7 @@ use std::fs;
 
 use anyhow::{Context as _, Result, bail};
 
-use crate::{fit_albedo, golden, tool};
+use crate::{fit_albedo, golden, shader_albedo, tool};
 
 /// Whether to write the files or to compare them.
 #[derive(Clone, Copy, Debug, clap::Args)]
@@ -43,6 +43,13 @@ pub(crate) const VECTORS: Generator = Generator {
     chore: "golden",
     generate: golden::generate,
     tolerance: Tolerance { absolute: 1e-12, relative: 1e-9 },
+};
+
+/// The compact fit's table in the shading languages: a copy of the committed one.
+pub(crate) const SHADERS: Generator = Generator {
+    chore: "shaders",
+    generate: shader_albedo::generate,
+    tolerance: Tolerance { absolute: 0.0, relative: 0.0 },
 };
 
 impl Generator {
@@ -122,6 +129,11 @@ mod tests {
     #[test]
     fn golden_vectors_are_what_the_generator_writes() -> Result<()> {
         VECTORS.run(Mode { check: true })
+    }
+
+    #[test]
+    fn shaders_are_what_the_generator_writes() -> Result<()> {
+        SHADERS.run(Mode { check: true })
     }
 
     #[test]

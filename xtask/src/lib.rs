@@ -5,6 +5,7 @@ mod generated;
 mod golden;
 mod lint;
 mod pictures;
+mod shader_albedo;
 mod test;
 mod tool;
 
@@ -35,6 +36,8 @@ enum Chore {
     FitAlbedo(Mode),
     /// Regenerate the project's own vectors in conformance/
     Golden(Mode),
+    /// Write the compact albedo fit's table into the shading languages
+    Shaders(Mode),
     /// Render the pictures of README.md into docs/
     Readme,
 }
@@ -51,6 +54,7 @@ pub fn run() -> anyhow::Result<()> {
         Chore::Test => test::run(),
         Chore::FitAlbedo(mode) => generated::TABLES.run(mode),
         Chore::Golden(mode) => generated::VECTORS.run(mode),
+        Chore::Shaders(mode) => generated::SHADERS.run(mode),
         Chore::Readme => pictures::run(),
     }
 }

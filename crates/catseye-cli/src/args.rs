@@ -3,7 +3,7 @@
 use catseye::Model;
 use clap::{Parser, Subcommand, ValueEnum};
 
-use crate::verbs::{albedo, eval, furnace, plot, render, sample};
+use crate::verbs::{albedo, eval, furnace, materialx, plot, render, sample};
 
 /// The retro-reflective BSDF: evaluate it, sample it, plot it, render with it.
 #[derive(Debug, Parser)]
@@ -27,6 +27,7 @@ enum Verb {
     Sample(sample::Args),
     Albedo(albedo::Args),
     Plot(plot::Args),
+    Materialx(materialx::Args),
 }
 
 impl Cli {
@@ -39,6 +40,7 @@ impl Cli {
             Verb::Sample(args) => args.run(),
             Verb::Albedo(args) => args.run(),
             Verb::Plot(args) => args.run(),
+            Verb::Materialx(args) => args.run(),
         }
     }
 }

@@ -50,6 +50,21 @@ Example:
   $ catseye plot albedo --roughness 0.1,0.5,1,inf -o albedo.svg
   wrote albedo.svg (960 x 640)";
 
+/// Example of `catseye materialx`.
+pub(crate) const MATERIALX: &str = "\
+Example:
+  $ catseye materialx export libraries
+  wrote libraries/catseye (13 files)";
+
+/// Example of `catseye materialx export`.
+pub(crate) const MATERIALX_EXPORT: &str = MATERIALX;
+
+/// Example of `catseye materialx check`.
+pub(crate) const MATERIALX_CHECK: &str = "\
+Example:
+  $ echo '<materialx version=\"1.39\"/>' > empty.mtlx; catseye materialx check empty.mtlx
+  empty.mtlx: no problems";
+
 const TABLE: &str = "\
 Table format:
   A header line, then one row per query; columns in any order. Inputs:

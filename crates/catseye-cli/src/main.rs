@@ -2,11 +2,13 @@
 
 mod args;
 mod canvas;
+mod data_library;
 mod failure;
 mod figure;
 mod help;
 mod input;
 mod layout;
+mod library;
 mod output;
 mod plot;
 mod point;

@@ -2,6 +2,8 @@
 
 use catseye::Params;
 
+use crate::template::Patterns;
+
 /// Which directions a dielectric closure scatters into: MaterialX's `scatter_mode`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ScatterMode {
@@ -49,8 +51,76 @@ pub enum Closure {
         ior: f32,
         /// GGX alpha along and across the tangent.
         roughness: [f32; 2],
+        /// Whether light is sent back instead of mirrored: `wo` is reflected about the normal first.
+        retroreflective: bool,
         /// Directions it scatters into.
         scatter_mode: ScatterMode,
+    },
+    /// `conductor_bsdf` with the GGX distribution.
+    Conductor {
+        /// Share of the lobe, in `[0, 1]`.
+        weight: f32,
+        /// Real part of the refractive index per channel.
+        ior: [f32; 3],
+        /// Imaginary part of the refractive index per channel.
+        extinction: [f32; 3],
+        /// GGX alpha along and across the tangent.
+        roughness: [f32; 2],
+        /// As for `Dielectric`.
+        retroreflective: bool,
+    },
+    /// `generalized_schlick_bsdf` with the GGX distribution.
+    GeneralizedSchlick {
+        /// Share of the lobe, in `[0, 1]`.
+        weight: f32,
+        /// Reflectance at normal incidence.
+        color0: [f32; 3],
+        /// What multiplies Schlick's curve at 82 degrees.
+        color82: [f32; 3],
+        /// Reflectance at grazing incidence.
+        color90: [f32; 3],
+        /// Schlick's exponent.
+        exponent: f32,
+        /// GGX alpha along and across the tangent.
+        roughness: [f32; 2],
+        /// As for `Dielectric`.
+        retroreflective: bool,
+        /// Directions it scatters into.
+        scatter_mode: ScatterMode,
+    },
+    /// `burley_diffuse_bsdf`.
+    BurleyDiffuse {
+        /// Share of the lobe, in `[0, 1]`.
+        weight: f32,
+        /// Diffuse albedo, in `[0, 1]` per channel.
+        color: [f32; 3],
+        /// Roughness, in `[0, 1]`.
+        roughness: f32,
+    },
+    /// `translucent_bsdf`: diffuse transmission.
+    Translucent {
+        /// Share of the lobe, in `[0, 1]`.
+        weight: f32,
+        /// Transmitted share, in `[0, 1]` per channel.
+        color: [f32; 3],
+    },
+    /// `sheen_bsdf`: backscattering of fibres.
+    Sheen {
+        /// Share of the lobe, in `[0, 1]`.
+        weight: f32,
+        /// Colour of the reflection, in `[0, 1]` per channel.
+        color: [f32; 3],
+        /// Roughness, in `(0, 1]`.
+        roughness: f32,
+    },
+    /// A lobe about a normal or tangent of its own: the inputs `normal` and `tangent` of its node.
+    Oriented {
+        /// The lobe.
+        closure: Box<Closure>,
+        /// Unit normal in world space; `None` for the surface's.
+        normal: Option<[f32; 3]>,
+        /// Tangent in world space; `None` for the surface's.
+        tangent: Option<[f32; 3]>,
     },
     /// `mix`: `amount * foreground + (1 - amount) * background`.
     Mix {
@@ -84,13 +154,44 @@ pub enum Closure {
     },
 }
 
+/// What a surface is made of, at a point or everywhere.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Surface {
+    /// How it scatters.
+    pub bsdf: Closure,
+    /// Opacity, in `[0, 1]`.
+    pub opacity: f32,
+    /// Radiance that it emits towards the viewer.
+    pub emission: [f32; 3],
+}
+
 /// A surface material of a document.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// The name of the `surfacematerial` node.
     pub name: String,
-    /// The BSDF of its surface.
+    /// The BSDF of its surface; where it varies, what it is at [`ShadingPoint::default`](crate::ShadingPoint).
     pub bsdf: Closure,
-    /// Surface opacity, in `[0, 1]`.
+    /// Surface opacity, in `[0, 1]`; where it varies, as for `bsdf`.
     pub opacity: f32,
+    /// Radiance that the surface emits; where it varies, as for `bsdf`.
+    pub emission: [f32; 3],
+    /// What the surface is at each point; `None` where it is the same everywhere.
+    pub patterns: Option<Patterns>,
+    /// What of the document is ignored or approximated, a line each.
+    pub warnings: Vec<String>,
+}
+
+impl Default for Material {
+    /// A surface that scatters nothing.
+    fn default() -> Self {
+        Self {
+            name: String::new(),
+            bsdf: Closure::None,
+            opacity: 1.0,
+            emission: [0.0; 3],
+            patterns: None,
+            warnings: Vec::new(),
+        }
+    }
 }

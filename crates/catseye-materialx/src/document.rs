@@ -1,75 +1,79 @@
 //! A MaterialX document.
 
-use std::{
-    fs::File,
-    io::{self, Read as _},
-    path::Path,
-    sync::Arc,
-};
+use std::{path::Path, sync::Arc};
 
 use crate::{
     closure::Material,
     element::Element,
     error::{Error, listed, quoted},
+    files::{MAX_BYTES, SearchPath, read},
     graph::{Graph, NodeRef},
+    include::Includer,
+    library::Library,
+    look::{self, Look},
     material::Builder,
     source::Source,
     xml,
 };
-
-/// Largest file that is read; MaterialX's largest is below 1 MiB.
-const MAX_BYTES: usize = 16 << 20;
 
 /// A MaterialX document, well-formed and of a known version; its nodes are checked when its materials are asked for.
 #[derive(Debug)]
 pub struct Document {
     name: Arc<str>,
     root: Element,
+    library: Arc<Library>,
 }
 
 impl Document {
-    /// Reads a file.
+    /// Reads a file and what it includes from its own folder.
     ///
     /// # Errors
     /// The file can't be read, is too large, or is refused by [`Document::parse`].
     pub fn load(path: impl AsRef<Path>) -> Result<Self, Error> {
-        let path = path.as_ref();
-        let name = path.to_string_lossy();
-        if path.is_dir() {
-            return Err(Error::Folder { file: name.into() });
-        }
-        let bytes = read(path).map_err(|cause| Error::Read { file: Arc::from(&*name), cause })?;
-        Self::from_bytes(&bytes, &name)
+        Self::load_with(path, &Arc::default())
     }
 
-    /// Reads a document from bytes; `name` stands for the file in messages.
+    /// Reads a file and what it includes from its own folder and the search path of a library, whose definitions its
+    /// nodes may have.
+    ///
+    /// # Errors
+    /// As [`Document::load`].
+    pub fn load_with(path: impl AsRef<Path>, library: &Arc<Library>) -> Result<Self, Error> {
+        let path = path.as_ref();
+        let name = path.to_string_lossy();
+        let root = read_root(path, &name)?;
+        let root = Includer::new(library.search_path(), path.canonicalize().ok()).expand(root)?;
+        Ok(Self { name: Arc::from(&*name), root, library: Arc::clone(library) })
+    }
+
+    /// Reads a document from bytes; `name` stands for the file in messages. It has no folder: it can't name files.
     ///
     /// # Errors
     /// The text is not UTF-8, or is refused by [`Document::parse`].
     pub fn from_bytes(bytes: &[u8], name: &str) -> Result<Self, Error> {
-        refuse_large(bytes, name)?;
-        match str::from_utf8(bytes) {
-            Ok(text) => Self::parse(text, name),
-            Err(cause) => {
-                let valid = String::from_utf8_lossy(&bytes[..cause.valid_up_to()]);
-                Err(Error::NotUtf8 { at: Source::new(name, &valid).place(valid.len(), String::new()) })
-            }
-        }
+        Self::of_root(parse_bytes(bytes, name, None)?)
     }
 
-    /// Reads a document from its text; `name` stands for the file in messages.
+    /// Reads a document from its text; `name` stands for the file in messages. It has no folder: it can't name files.
     ///
     /// # Errors
     /// The text is too large, no well-formed XML, no MaterialX, or of a version other than 1.38 and 1.39.
     pub fn parse(text: &str, name: &str) -> Result<Self, Error> {
-        refuse_large(text.as_bytes(), name)?;
-        let source = Arc::new(Source::new(name, text));
-        let root = xml::parse(&source)?;
-        if root.tag() != "materialx" {
-            return Err(Error::NotMaterialX { at: root.place() });
-        }
-        refuse_version(&root)?;
-        Ok(Self { name: Arc::clone(source.name()), root })
+        Self::of_root(parse_text(text, name, None)?)
+    }
+
+    /// As [`Document::parse`], with a library's definitions and search path.
+    ///
+    /// # Errors
+    /// As [`Document::parse`].
+    pub fn parse_with(text: &str, name: &str, library: &Arc<Library>) -> Result<Self, Error> {
+        let root = Includer::new(library.search_path(), None).expand(parse_text(text, name, None)?)?;
+        Ok(Self { name: Arc::clone(root.source().name()), root, library: Arc::clone(library) })
+    }
+
+    fn of_root(root: Element) -> Result<Self, Error> {
+        let root = Includer::new(&SearchPath::default(), None).expand(root)?;
+        Ok(Self { name: Arc::clone(root.source().name()), root, library: Arc::default() })
     }
 
     /// The file's name, as given by the caller.
@@ -83,12 +87,33 @@ impl Document {
     /// # Errors
     /// There is none, or something that one of them refers to is wrong.
     pub fn materials(&self) -> Result<Vec<Material>, Error> {
-        let graph = Graph::new(&self.root)?;
+        let graph = Graph::new(&self.root, &self.library)?;
         if graph.materials().next().is_none() {
             return Err(Error::NoMaterial { file: Arc::clone(&self.name) });
         }
-        let mut builder = Builder::new(&graph);
+        let mut builder = Builder::new(&graph, &self.library);
         graph.materials().map(|material| builder.material(material)).collect()
+    }
+
+    /// The names of all surface materials, in the document's order.
+    #[must_use]
+    pub fn material_names(&self) -> Vec<String> {
+        let materials = self.root.children_of_kind("surfacematerial");
+        materials.filter_map(|material| material.name().map(str::to_owned)).collect()
+    }
+
+    /// All looks, in the document's order.
+    ///
+    /// # Errors
+    /// An assignment names no material, or one that doesn't exist.
+    pub fn looks(&self) -> Result<Vec<Look>, Error> {
+        look::looks(&self.root)
+    }
+
+    /// What of the document has no meaning here, a line each: units of lengths and angles, for instance.
+    #[must_use]
+    pub fn warnings(&self) -> Vec<String> {
+        look::unit_warnings(&self.root)
     }
 
     /// The material of this name, or the document's only one where no name is given.
@@ -96,9 +121,9 @@ impl Document {
     /// # Errors
     /// There is no such material, there are several to choose from, or something that it refers to is wrong.
     pub fn material(&self, name: Option<&str>) -> Result<Material, Error> {
-        let graph = Graph::new(&self.root)?;
+        let graph = Graph::new(&self.root, &self.library)?;
         let material = self.choose(&graph, name)?;
-        Builder::new(&graph).material(material)
+        Builder::new(&graph, &self.library).material(material)
     }
 
     fn choose<'a>(&self, graph: &Graph<'a>, name: Option<&str>) -> Result<NodeRef<'a>, Error> {
@@ -119,11 +144,40 @@ impl Document {
     }
 }
 
-/// Reads at most one byte more than is allowed, also from what never ends.
-fn read(path: &Path) -> io::Result<Vec<u8>> {
-    let mut bytes = Vec::new();
-    File::open(path)?.take(MAX_BYTES as u64 + 1).read_to_end(&mut bytes)?;
-    Ok(bytes)
+/// The root element of a file, its includes not yet read.
+pub(crate) fn read_root(path: &Path, name: &str) -> Result<Element, Error> {
+    if path.is_dir() {
+        return Err(Error::Folder { file: name.into() });
+    }
+    let bytes = read(path).map_err(|cause| Error::Read { file: name.into(), cause })?;
+    let folder =
+        path.parent().map(|folder| if folder.as_os_str().is_empty() { Path::new(".") } else { folder });
+    parse_bytes(&bytes, name, folder)
+}
+
+pub(crate) fn parse_bytes(bytes: &[u8], name: &str, folder: Option<&Path>) -> Result<Element, Error> {
+    refuse_large(bytes, name)?;
+    match str::from_utf8(bytes) {
+        Ok(text) => parse_text(text, name, folder),
+        Err(cause) => {
+            let valid = String::from_utf8_lossy(&bytes[..cause.valid_up_to()]);
+            Err(Error::NotUtf8 { at: Source::new(name, &valid).place(valid.len(), String::new()) })
+        }
+    }
+}
+
+fn parse_text(text: &str, name: &str, folder: Option<&Path>) -> Result<Element, Error> {
+    refuse_large(text.as_bytes(), name)?;
+    let source = match folder {
+        Some(folder) => Source::in_folder(name, text, folder),
+        None => Source::new(name, text),
+    };
+    let root = xml::parse(&Arc::new(source))?;
+    if root.tag() != "materialx" {
+        return Err(Error::NotMaterialX { at: root.place() });
+    }
+    refuse_version(&root)?;
+    Ok(root)
 }
 
 fn refuse_large(bytes: &[u8], name: &str) -> Result<(), Error> {

@@ -22,6 +22,14 @@ impl Span {
     pub(crate) fn place(&self, element: String) -> Place {
         self.source.place(self.offset, element)
     }
+
+    pub(crate) fn source(&self) -> &Arc<Source> {
+        &self.source
+    }
+
+    pub(crate) fn offset(&self) -> usize {
+        self.offset
+    }
 }
 
 /// A name and its text.
@@ -44,7 +52,16 @@ pub(crate) struct Element {
     attributes: Vec<Attribute>,
     children: Vec<Element>,
     span: Span,
-    colorspace: Option<Arc<str>>,
+    inherited: Inherited,
+}
+
+/// What elements pass on to those inside them.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Inherited {
+    /// The colour space of values.
+    pub(crate) colorspace: Option<Arc<str>>,
+    /// What stands in front of file names.
+    pub(crate) fileprefix: Option<Arc<str>>,
 }
 
 impl Element {
@@ -53,9 +70,47 @@ impl Element {
         attributes: Vec<Attribute>,
         children: Vec<Element>,
         span: Span,
-        colorspace: Option<Arc<str>>,
+        inherited: Inherited,
     ) -> Self {
-        Self { tag, attributes, children, span, colorspace }
+        Self { tag, attributes, children, span, inherited }
+    }
+
+    /// The same element with other elements inside.
+    pub(crate) fn with_children(self, children: Vec<Element>) -> Self {
+        Self { children, ..self }
+    }
+
+    pub(crate) fn take_children(&mut self) -> Vec<Element> {
+        core::mem::take(&mut self.children)
+    }
+
+    pub(crate) fn into_children(self) -> Vec<Element> {
+        self.children
+    }
+
+    /// The document that it stands in.
+    pub(crate) fn source(&self) -> &Arc<Source> {
+        self.span.source()
+    }
+
+    /// Where it starts, in bytes: quicker to find than its line.
+    pub(crate) fn offset(&self) -> usize {
+        self.span.offset()
+    }
+
+    /// What stands in front of the file names of this element.
+    pub(crate) fn fileprefix(&self) -> &str {
+        self.inherited.fileprefix.as_deref().unwrap_or_default()
+    }
+
+    /// The elements inside with this tag.
+    pub(crate) fn children_of_kind<'a>(&'a self, tag: &'static str) -> impl Iterator<Item = &'a Element> {
+        self.children.iter().filter(move |child| child.tag == tag)
+    }
+
+    /// The element inside with this tag and name.
+    pub(crate) fn child(&self, tag: &str, name: &str) -> Option<&Element> {
+        self.children.iter().find(|child| child.tag == tag && child.name() == Some(name))
     }
 
     pub(crate) fn tag(&self) -> &str {
@@ -68,7 +123,7 @@ impl Element {
 
     /// The colour space of this element's values: its own or that of the nearest element around it.
     pub(crate) fn colorspace(&self) -> Option<&str> {
-        self.colorspace.as_deref()
+        self.inherited.colorspace.as_deref()
     }
 
     /// The attribute's text; an empty one counts as absent, as in MaterialX.

@@ -121,12 +121,20 @@ pub enum Error {
         first_line: u32,
     },
     /// A node of a category that is not known here.
-    #[error("{at}: unknown node category; {known} are known")]
+    #[error(
+        "{at}: unknown node category; `--materialx-path` or MATERIALX_SEARCH_PATH adds libraries that define nodes"
+    )]
     UnknownCategory {
         /// The node.
         at: Place,
-        /// The known categories.
-        known: String,
+    },
+    /// A node that is declared but that nothing here knows how to compute.
+    #[error(
+        "{at}: the node is declared, but its implementation is code for another renderer; it is not supported"
+    )]
+    NoGraph {
+        /// The node.
+        at: Place,
     },
     /// An input that the node's category does not have.
     #[error("{at}: no such input; {category} has {known}")]
@@ -134,7 +142,7 @@ pub enum Error {
         /// The input.
         at: Place,
         /// The node's category.
-        category: &'static str,
+        category: String,
         /// The inputs it has.
         known: String,
     },
@@ -192,6 +200,34 @@ pub enum Error {
         /// The nodes of the cycle, from it on.
         cycle: String,
     },
+    /// A file that a document names and that isn't there.
+    #[error("{at}: there is no file {name}; correct the name, or add its folder to the search path")]
+    MissingFile {
+        /// The element that names it.
+        at: Place,
+        /// The file's name, quoted.
+        name: String,
+    },
+    /// A file outside the folders that may be read.
+    #[error(
+        "{at}: the file {name} is outside the document's folder; add its folder to the search path to allow it"
+    )]
+    OutsideSearchPath {
+        /// The element that names it.
+        at: Place,
+        /// The file's name, quoted.
+        name: String,
+    },
+    /// A picture that can't be read.
+    #[error("{at}: the picture {name} can't be read: {message}")]
+    Picture {
+        /// The element that names it.
+        at: Place,
+        /// The file's name, quoted.
+        name: String,
+        /// What is wrong with it.
+        message: String,
+    },
     /// A document without a material.
     #[error("{file}: has no <surfacematerial>; add one and connect its surfaceshader")]
     NoMaterial {
@@ -244,7 +280,8 @@ impl Error {
             | Self::Unsupported { at, .. }
             | Self::MissingAttribute { at, .. }
             | Self::DuplicateName { at, .. }
-            | Self::UnknownCategory { at, .. }
+            | Self::UnknownCategory { at }
+            | Self::NoGraph { at }
             | Self::UnknownInput { at, .. }
             | Self::WrongType { at, .. }
             | Self::BadValue { at, .. }
@@ -252,6 +289,9 @@ impl Error {
             | Self::ColorSpace { at, .. }
             | Self::Dangling { at, .. }
             | Self::Cycle { at, .. }
+            | Self::MissingFile { at, .. }
+            | Self::OutsideSearchPath { at, .. }
+            | Self::Picture { at, .. }
             | Self::NoSurface { at } => Some(at),
         }
     }

@@ -1,81 +1,176 @@
-//! What feeds an input: a connected node, a constant, or the default.
+//! Values of inputs: read as their type, in linear light, within their range.
 
 use crate::{
     element::Element,
     error::{Error, listed, quoted},
-    graph::{Graph, NodeRef},
-    node::definitions,
+    graph::{Feed, Graph, NodeRef},
     nodedef::{Accepts, InputDef, InputDefault},
-    value::{COLOR_SPACES, Value},
+    pattern::{signature, signatures},
+    value::{COLOR_SPACES, ColorSpace, Type, Value},
 };
 
-/// Where an input's value comes from.
-#[derive(Clone, Copy, Debug)]
-pub(crate) enum Feed<'a> {
-    Default,
-    Value(Value<'a>),
-    Node(NodeRef<'a>),
+/// The type of a node's output.
+pub(crate) fn output_type(
+    graph: &Graph<'_>,
+    target: NodeRef<'_>,
+    output: Option<&str>,
+) -> Result<Type, Error> {
+    let element = target.element;
+    let unknown = |found: &str| Error::WrongType {
+        at: element.place(),
+        found: quoted(found),
+        expected: "a type of MaterialX".to_owned(),
+    };
+    let name = element.require("type")?;
+    let ty = Type::parse(name).ok_or_else(|| unknown(name))?;
+    if ty != Type::MultiOutput {
+        return Ok(ty);
+    }
+    let output = output.ok_or_else(|| Error::Unsupported {
+        at: element.place(),
+        what: "a connection to a node of several outputs without output=\"...\"".to_owned(),
+        instead: "name the output where it is connected".to_owned(),
+    })?;
+    if let Some(signature) = signature(element.tag(), ty) {
+        let known = signature.outputs.iter().find(|(name, _)| *name == output);
+        return known.map(|(_, ty)| *ty).ok_or_else(|| no_output(element, output));
+    }
+    let definition = graph.definitions().find(element).ok_or_else(|| unknown_category(graph, element))?;
+    let defined = definition.outputs().find(|defined| defined.name() == Some(output));
+    let defined = defined.and_then(|defined| defined.attribute("type")).and_then(Type::parse);
+    defined.ok_or_else(|| no_output(element, output))
 }
 
-/// Finds what feeds an input. A connection is preferred to a value, as in MaterialX.
+pub(crate) fn no_output(element: &Element, output: &str) -> Error {
+    Error::Dangling { at: element.place(), target: format!("output={}", quoted(output)) }
+}
+
+/// That nothing is known of a node's category, or not with its type and inputs.
+pub(crate) fn unknown_category(graph: &Graph<'_>, element: &Element) -> Error {
+    let defined = graph.definitions().of(element.tag());
+    if let Some(first) = defined.first() {
+        return unfitting(element, first, defined.len());
+    }
+    let of_type: Vec<&str> = signatures(element.tag()).flat_map(|s| s.types).map(|ty| ty.name()).collect();
+    if !of_type.is_empty() {
+        let found = quoted(element.attribute("type").unwrap_or_default());
+        return Error::WrongType { at: element.place(), found, expected: of_type.join(" or ") };
+    }
+    Error::UnknownCategory { at: element.place() }
+}
+
+/// Why a node doesn't fit the first definition of its category.
+fn unfitting(element: &Element, definition: &crate::library::Definition<'_>, count: usize) -> Error {
+    let expected = definition.output_type().unwrap_or_default();
+    let found = element.attribute("type").unwrap_or_default();
+    if count == 1 && expected != found {
+        return Error::WrongType { at: element.place(), found: quoted(found), expected: expected.to_owned() };
+    }
+    for input in element.children_of_kind("input") {
+        let Some(name) = input.name() else { continue };
+        let Some(defined) = definition.input(name) else {
+            let known = listed(definition.inputs().filter_map(Element::name));
+            let category = element.tag().to_owned();
+            return Error::UnknownInput { at: element.place_of(input), category, known };
+        };
+        let (expected, found) = (defined.attribute("type"), input.attribute("type"));
+        if count == 1 && expected != found {
+            return Error::WrongType {
+                at: element.place_of(input),
+                found: quoted(found.unwrap_or_default()),
+                expected: expected.unwrap_or_default().to_owned(),
+            };
+        }
+    }
+    Error::WrongType {
+        at: element.place(),
+        found: quoted(found),
+        expected: "another type, or inputs of other types,".to_owned(),
+    }
+}
+
+/// Checks the type of what an input is connected to.
+pub(crate) fn check_connection<'a>(
+    graph: &Graph<'a>,
+    node: NodeRef<'a>,
+    child: &'a Element,
+    feed: Feed<'a>,
+    expected: Type,
+) -> Result<(), Error> {
+    let Feed::Node { node: target, output } = feed else { return Ok(()) };
+    let found = output_type(graph, target, output)?;
+    if found == expected {
+        return Ok(());
+    }
+    Err(Error::WrongType {
+        at: node.element.place_of(child),
+        found: format!("{} by its connection", quoted(found.name())),
+        expected: expected.name().to_owned(),
+    })
+}
+
+/// What feeds an input of a built-in BSDF or shader node, its type checked, and its value where it is `strict`.
 pub(crate) fn feed<'a>(
     graph: &Graph<'a>,
     node: NodeRef<'a>,
     child: &'a Element,
     input: &'static InputDef,
 ) -> Result<Feed<'a>, Error> {
-    if let Some(target) = graph.connection(node, child)? {
-        let output = definitions(target.element)?[0].output;
-        if output != input.ty() {
-            let found = format!("{} by its connection", quoted(output.name()));
-            let at = node.element.place_of(child);
-            return Err(Error::WrongType { at, found, expected: input.ty().name().to_owned() });
+    let feed = graph.feed(node, child)?;
+    let in_document = graph.is_in_document(node.scope);
+    check_connection(graph, node, child, feed, input.ty())?;
+    match feed {
+        Feed::Node { .. } if in_document && matches!(input.accepts, Accepts::DefaultOnly) => {
+            Err(default_only(node.element, child, input))
         }
-        return match input.accepts {
-            Accepts::DefaultOnly => Err(default_only(node.element, child, input)),
-            _ => Ok(Feed::Node(target)),
-        };
-    }
-    match child.attribute("value") {
-        None => Ok(Feed::Default),
-        Some(text) => value(node.element, child, input, text).map(Feed::Value),
+        Feed::Value { owner, input: literal, direct } => {
+            let value = constant(owner, literal, input.ty())?;
+            if direct && in_document {
+                check_range(owner, literal, input, value)?;
+            }
+            Ok(feed)
+        }
+        _ => Ok(feed),
     }
 }
 
-/// Reads a constant, converts its colour space and checks its range.
-fn value<'a>(
-    node: &Element,
-    child: &'a Element,
-    input: &InputDef,
-    text: &'a str,
-) -> Result<Value<'a>, Error> {
-    let at = || node.place_of(child);
-    let value = Value::parse(input.ty(), text).ok_or_else(|| Error::BadValue {
-        at: at(),
+/// Reads the value of an input and converts its colour space.
+pub(crate) fn constant<'a>(owner: &Element, input: &'a Element, ty: Type) -> Result<Value<'a>, Error> {
+    let text = input.attribute("value").unwrap_or_default();
+    let value = Value::parse(ty, text).ok_or_else(|| Error::BadValue {
+        at: owner.place_of(input),
         value: quoted(text),
-        expected: input.ty().example(),
+        expected: ty.example(),
     })?;
-    let value = linear(node, child, value)?;
+    Ok(match value {
+        Value::Color3(color) => Value::Color3(color_space(owner, input)?.to_linear(color)),
+        Value::Color4([r, g, b, alpha]) => {
+            let [r, g, b] = color_space(owner, input)?.to_linear([r, g, b]);
+            Value::Color4([r, g, b, alpha])
+        }
+        value => value,
+    })
+}
+
+/// The colour space that an input's value is written in.
+pub(crate) fn color_space(owner: &Element, input: &Element) -> Result<&'static ColorSpace, Error> {
+    let Some(name) = input.colorspace() else { return Ok(&COLOR_SPACES[0]) };
+    ColorSpace::named(name).ok_or_else(|| Error::ColorSpace {
+        at: owner.place_of(input),
+        colorspace: quoted(name),
+        supported: listed(COLOR_SPACES.iter().map(|space| space.name)),
+    })
+}
+
+fn check_range(node: &Element, child: &Element, input: &InputDef, value: Value<'_>) -> Result<(), Error> {
     if let Some(refusal) = input.accepts.refusal(value) {
-        return Err(Error::OutOfRange { at: at(), message: format!("{} is {value}, {refusal}", input.name) });
+        let message = format!("{} is {value}, {refusal}", input.name);
+        return Err(Error::OutOfRange { at: node.place_of(child), message });
     }
     let is_default = matches!(input.default, InputDefault::Value(default) if default == value);
     match input.accepts {
         Accepts::DefaultOnly if !is_default => Err(default_only(node, child, input)),
-        _ => Ok(value),
-    }
-}
-
-/// Converts a colour from the colour space that it is written in.
-fn linear<'a>(node: &Element, child: &Element, value: Value<'a>) -> Result<Value<'a>, Error> {
-    let (Value::Color3(color), Some(colorspace)) = (value, child.colorspace()) else { return Ok(value) };
-    match COLOR_SPACES.iter().find(|(name, _)| *name == colorspace) {
-        Some((_, to_linear)) => Ok(Value::Color3(color.map(to_linear))),
-        None => Err(Error::ColorSpace {
-            at: node.place_of(child),
-            colorspace: quoted(colorspace),
-            supported: listed(COLOR_SPACES.iter().map(|(name, _)| *name)),
-        }),
+        _ => Ok(()),
     }
 }
 

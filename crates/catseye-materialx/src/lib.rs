@@ -34,28 +34,54 @@
 //!
 //! # What is read
 //!
-//! Documents of version 1.38 and 1.39: `surfacematerial`, `surface` (`bsdf`, `opacity`), `retro_reflective_bsdf`,
-//! `oren_nayar_diffuse_bsdf`, `dielectric_bsdf`, `mix`, `layer`, `add` and `multiply` of BSDFs, connected with
-//! `nodename` or through the output of a nodegraph. Inputs of other types are constants. Colours may be in the colour
-//! spaces `lin_rec709`, `raw`, `none` and `srgb_texture`, also inherited from an element further out. Only what a
-//! material refers to is checked.
+//! Documents of version 1.38 and 1.39: `surfacematerial`, `surface` (`bsdf`, `edf`, `opacity`), `surface_unlit`, nodegraphs with
+//! interface inputs, inside one another too, `xi:include`, looks, `fileprefix`, the colour spaces that MaterialX defines,
+//! also inherited from an element further out. Units are ignored: [`Document::warnings`] says where.
+//!
+//! - BSDFs: `retro_reflective_bsdf`, `oren_nayar_diffuse_bsdf`, `burley_diffuse_bsdf`, `dielectric_bsdf`, `conductor_bsdf`,
+//!   `generalized_schlick_bsdf` (these three with `retroreflective`), `sheen_bsdf`, `translucent_bsdf`, `mix`, `layer`, `add`,
+//!   `multiply`; with a warning, `subsurface_bsdf` as diffuse reflection, and volumes and thin films not at all.
+//! - EDFs: `uniform_edf`, `generalized_schlick_edf`, `mix`, `add`, `multiply`.
+//! - Inputs that vary: some ninety pattern nodes, from `image` to `worleynoise3d`. What of them doesn't depend on the geometry is
+//!   computed once; the rest is a [`Patterns`] program, which [`Material::patterns`] runs at each [`ShadingPoint`].
+//! - Nodes that the document or a [`Library`] defines as nodegraphs: `standard_surface`, `open_pbr_surface`, `gltf_pbr` where
+//!   MaterialX's own libraries are on the [`SearchPath`]. In a definition's graph what has no weight is left out, and numbers
+//!   outside their range are brought into it, not refused.
+//!
+//! Only what a material refers to is checked, and the first problem ends the reading; [`check`](check()) looks at everything.
 //!
 //! Hostile documents are refused in bounded time and memory: no document type declarations, at most 16 MiB, 32 levels
-//! of elements, 64 BSDF nodes in a chain and 65,536 closures.
+//! of elements, 64 BSDF nodes or 200 pattern nodes in a chain, 65,536 closures, 256 included files, pictures of at most 16,384
+//! pixels a side and 2 GiB together, and no file outside the document's folder and the search path.
 
+mod check;
 mod closure;
+mod compile;
 mod document;
 mod element;
 mod error;
+mod files;
 mod graph;
+mod include;
 mod input;
+mod library;
+mod look;
 mod material;
 mod node;
 mod nodedef;
+mod pattern;
 mod source;
+mod template;
+mod texture;
 mod value;
 mod xml;
 
-pub use closure::{Closure, Material, ScatterMode};
+pub use check::{check, check_bytes};
+pub use closure::{Closure, Material, ScatterMode, Surface};
 pub use document::Document;
 pub use error::{Error, Place};
+pub use files::SearchPath;
+pub use library::Library;
+pub use look::{Assignment, Look};
+pub use pattern::ShadingPoint;
+pub use template::Patterns;

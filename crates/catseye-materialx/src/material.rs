@@ -1,16 +1,20 @@
-//! From nodes to closures.
+//! From nodes to materials.
 
 use std::ptr;
 
-use catseye::Params;
-
 use crate::{
-    closure::{Closure, Material, ScatterMode},
+    closure::{Material, ScatterMode},
+    compile::PatternCompiler,
     element::Element,
     error::{Error, listed},
-    graph::{Graph, NodeRef},
-    node::Node,
-    nodedef::Kind,
+    graph::{Feed, Graph, NodeRef},
+    input::unknown_category,
+    library::Library,
+    node::{Node, is_known},
+    nodedef::{Accepts, InputDefault, Kind},
+    pattern::{Geometry, Op},
+    template::{Leaf, Patterns, Slot, SurfaceTemplate, Template},
+    value::{Type, Value},
 };
 
 /// BSDF nodes on one path from a surface down; also what keeps the recursion of readers and renderers bounded.
@@ -22,43 +26,126 @@ const MAX_CLOSURES: usize = 65_536;
 #[derive(Debug)]
 pub(crate) struct Builder<'a> {
     graph: &'a Graph<'a>,
+    patterns: PatternCompiler<'a>,
     /// The nodes between the surface and the closure being built.
-    path: Vec<&'a Element>,
+    path: Vec<NodeRef<'a>>,
     closures: usize,
+    warnings: Vec<String>,
 }
 
 impl<'a> Builder<'a> {
-    pub(crate) fn new(graph: &'a Graph<'a>) -> Self {
-        Self { graph, path: Vec::new(), closures: 0 }
+    pub(crate) fn new(graph: &'a Graph<'a>, library: &'a Library) -> Self {
+        Self {
+            graph,
+            patterns: PatternCompiler::new(graph, library),
+            path: Vec::new(),
+            closures: 0,
+            warnings: Vec::new(),
+        }
     }
 
     pub(crate) fn material(&mut self, material: NodeRef<'a>) -> Result<Material, Error> {
+        self.warnings.clear();
         let name = material.element.require("name")?.to_owned();
         let node = Node::bind(self.graph, material)?;
         let Some(surface) = node.connected("surfaceshader") else {
-            return Err(Error::NoSurface { at: node.element.place() });
+            return Err(Error::NoSurface { at: material.element.place() });
         };
-        let surface = Node::bind(self.graph, surface)?;
-        Ok(Material { name, bsdf: self.closure(&surface, "bsdf")?, opacity: surface.float("opacity") })
+        let surface = self.surface(surface, 0)?;
+        Ok(self.finish(name, surface))
+    }
+
+    /// The surface node behind a shader node, which may be defined as a graph.
+    fn surface(&mut self, node: NodeRef<'a>, depth: usize) -> Result<SurfaceTemplate, Error> {
+        if is_known(node.element) || depth > MAX_DEPTH {
+            let node = Node::bind(self.graph, node)?;
+            return self.built_in_surface(&node);
+        }
+        let inside = self.defined(node, None)?;
+        self.surface(inside, depth + 1)
+    }
+
+    /// The node behind a node that a definition's graph stands for.
+    fn defined(&self, node: NodeRef<'a>, output: Option<&'a str>) -> Result<NodeRef<'a>, Error> {
+        let definition = self.graph.definitions().find(node.element);
+        let definition = definition.ok_or_else(|| unknown_category(self.graph, node.element))?;
+        match self.graph.inside(definition, node, output)? {
+            Some(Feed::Node { node, .. }) => Ok(node),
+            _ => Err(Error::NoGraph { at: node.element.place() }),
+        }
+    }
+
+    fn built_in_surface(&mut self, node: &Node<'a>) -> Result<SurfaceTemplate, Error> {
+        let opacity = self.float(node, "opacity")?;
+        if node.def.input("thin_walled").is_some() && self.boolean(node, "thin_walled")? {
+            self.warn(node, "thin_walled", "thin walls are not rendered: light is refracted at each surface");
+        }
+        let (bsdf, emission) = match node.def.kind {
+            Kind::SurfaceUnlit => {
+                let (strength, color) = (self.float(node, "emission")?, self.color(node, "emission_color")?);
+                let (strength, color) = (self.register(strength), self.register(color));
+                let strength = self.patterns.lowering.splat(strength, 3);
+                (Template::None, Some(self.patterns.lowering.op(Op::Multiply, 3, &[strength, color])))
+            }
+            _ => (self.closure(node, "bsdf")?, self.emission(node, "edf")?),
+        };
+        let emission = match emission {
+            None => Slot::Constant([0.0; 3]),
+            Some(register) => self.slot_of(register, Accepts::NotNegative),
+        };
+        Ok(SurfaceTemplate { bsdf, opacity, emission })
+    }
+
+    fn finish(&mut self, name: String, mut surface: SurfaceTemplate) -> Material {
+        let wanted = surface.registers();
+        let warnings = core::mem::take(&mut self.warnings);
+        let (program, places) = self.patterns.lowering.assembler.finish(&wanted);
+        surface.relocate(&|register| places[&register]);
+        let mut registers = Vec::new();
+        program.run(&crate::ShadingPoint::default(), &mut registers);
+        let shown = surface.at(&registers);
+        let patterns = (!wanted.is_empty()).then(|| Patterns::new(surface, program));
+        let (bsdf, opacity, emission) = (shown.bsdf, shown.opacity, shown.emission);
+        Material { name, bsdf, opacity, emission, patterns, warnings }
+    }
+
+    fn warn(&mut self, node: &Node<'a>, input: &str, what: &str) {
+        let warning = format!("{}: {what}", node.place_of(input));
+        if !self.warnings.contains(&warning) {
+            self.warnings.push(warning);
+        }
     }
 
     /// The closure that an input is connected to.
-    fn closure(&mut self, node: &Node<'a>, input: &str) -> Result<Closure, Error> {
-        let Some(target) = node.connected(input) else { return Ok(Closure::None) };
-        self.enter(target.element)?;
-        let closure = self.bsdf(&Node::bind(self.graph, target)?)?;
+    fn closure(&mut self, node: &Node<'a>, input: &str) -> Result<Template, Error> {
+        let Some(target) = node.connected(input) else { return Ok(Template::None) };
+        self.closure_of(target)
+    }
+
+    fn closure_of(&mut self, target: NodeRef<'a>) -> Result<Template, Error> {
+        self.enter(target)?;
+        let closure = if is_known(target.element) {
+            let node = Node::bind(self.graph, target)?;
+            self.bsdf(&node)?
+        } else {
+            let inside = self.defined(target, None)?;
+            self.closure_of(inside)?
+        };
         self.path.pop();
         Ok(closure)
     }
 
     /// [`Self::closure`] on the heap.
-    fn boxed(&mut self, node: &Node<'a>, input: &str) -> Result<Box<Closure>, Error> {
+    fn boxed(&mut self, node: &Node<'a>, input: &str) -> Result<Box<Template>, Error> {
         self.closure(node, input).map(Box::new)
     }
 
-    fn enter(&mut self, element: &'a Element) -> Result<(), Error> {
-        if let Some(start) = self.path.iter().position(|&visited| ptr::eq(visited, element)) {
-            let cycle = self.path[start..].iter().map(|element| element.quoted_name());
+    fn enter(&mut self, target: NodeRef<'a>) -> Result<(), Error> {
+        let element: &'a Element = target.element;
+        let is_target =
+            |visited: &NodeRef<'_>| ptr::eq(visited.element, element) && visited.scope == target.scope;
+        if let Some(start) = self.path.iter().position(is_target) {
+            let cycle = self.path[start..].iter().map(|node| node.element.quoted_name());
             return Err(Error::Cycle { at: element.place(), cycle: listed(cycle) });
         }
         let limit = |what, limit| Err(Error::Limit { at: element.place(), what, limit });
@@ -68,86 +155,361 @@ impl<'a> Builder<'a> {
         if self.closures >= MAX_CLOSURES {
             return limit("closures in all materials together", MAX_CLOSURES);
         }
-        self.path.push(element);
+        self.path.push(target);
         self.closures += 1;
         Ok(())
     }
 
-    fn bsdf(&mut self, node: &Node<'a>) -> Result<Closure, Error> {
+    fn bsdf(&mut self, node: &Node<'a>) -> Result<Template, Error> {
         Ok(match node.def.kind {
-            Kind::RetroReflective => retro_reflective(node)?,
-            Kind::OrenNayarDiffuse => oren_nayar_diffuse(node),
-            Kind::Dielectric => dielectric(node),
-            Kind::Mix => Closure::Mix {
-                foreground: self.boxed(node, "fg")?,
-                background: self.boxed(node, "bg")?,
-                amount: node.float("mix"),
-            },
-            Kind::Layer => Closure::Layer { top: self.boxed(node, "top")?, base: self.boxed(node, "base")? },
-            Kind::Add => Closure::Add { a: self.boxed(node, "in1")?, b: self.boxed(node, "in2")? },
-            Kind::Multiply => {
-                Closure::Multiply { closure: self.boxed(node, "in1")?, factor: node.color("in2") }
+            Kind::Mix => return self.mix(node),
+            Kind::Layer => {
+                let (top, base) = (self.boxed(node, "top")?, self.boxed(node, "base")?);
+                match (&*top, &*base) {
+                    (Template::None, _) if self.may_prune(node) => *base,
+                    (_, Template::None) if self.may_prune(node) => *top,
+                    _ => Template::Layer { top, base },
+                }
             }
-            // The connection's type excludes them.
-            Kind::Surface | Kind::SurfaceMaterial => Closure::None,
+            Kind::LayerVolume => {
+                if node.connected("base").is_some() {
+                    self.warn(node, "base", "volumes are not rendered: the volume is ignored");
+                }
+                self.closure(node, "top")?
+            }
+            Kind::Add => Template::Add { a: self.boxed(node, "in1")?, b: self.boxed(node, "in2")? },
+            Kind::Multiply => {
+                let factor = self.color(node, "in2")?;
+                if factor == Slot::Constant([0.0; 3]) && self.may_prune(node) {
+                    return Ok(Template::None);
+                }
+                Template::Multiply { closure: self.boxed(node, "in1")?, factor }
+            }
+            _ => return self.leaf(node),
+        })
+    }
+
+    /// Whether what doesn't count may be left out: in a definition, whose author can't be told what is wrong.
+    fn may_prune(&self, node: &Node<'a>) -> bool {
+        !self.graph.is_in_document(node.node.scope)
+    }
+
+    fn mix(&mut self, node: &Node<'a>) -> Result<Template, Error> {
+        let amount = self.float(node, "mix")?;
+        if self.may_prune(node) {
+            if amount == Slot::Constant([0.0]) {
+                return self.closure(node, "bg");
+            }
+            if amount == Slot::Constant([1.0]) {
+                return self.closure(node, "fg");
+            }
+        }
+        Ok(Template::Mix { foreground: self.boxed(node, "fg")?, background: self.boxed(node, "bg")?, amount })
+    }
+
+    fn leaf(&mut self, node: &Node<'a>) -> Result<Template, Error> {
+        let weight = self.float(node, "weight")?;
+        if weight == Slot::Constant([0.0]) && self.may_prune(node) {
+            return Ok(Template::None);
+        }
+        let leaf = match node.def.kind {
+            Kind::RetroReflective => self.retro_reflective(node)?,
+            Kind::OrenNayarDiffuse => Leaf::OrenNayar {
+                color: self.color(node, "color")?,
+                roughness: self.float(node, "roughness")?,
+                energy_compensation: self.boolean(node, "energy_compensation")?,
+            },
+            Kind::BurleyDiffuse => {
+                Leaf::Burley { color: self.color(node, "color")?, roughness: self.float(node, "roughness")? }
+            }
+            Kind::Translucent => Leaf::Translucent { color: self.color(node, "color")? },
+            Kind::Subsurface => {
+                self.warn(node, "radius", "subsurface scattering is approximated by diffuse reflection");
+                let color = self.color(node, "color")?;
+                Leaf::OrenNayar { color, roughness: Slot::Constant([0.0]), energy_compensation: false }
+            }
+            Kind::Sheen => {
+                if self.word(node, "mode")? == "zeltner" {
+                    self.warn(node, "mode", "zeltner is approximated by conty_kulla");
+                }
+                Leaf::Sheen { color: self.color(node, "color")?, roughness: self.float(node, "roughness")? }
+            }
+            Kind::Dielectric => {
+                self.film(node)?;
+                Leaf::Dielectric {
+                    tint: self.color(node, "tint")?,
+                    ior: self.float(node, "ior")?,
+                    roughness: self.slot(node, "roughness")?,
+                    retroreflective: self.boolean(node, "retroreflective")?,
+                    scatter_mode: self.scatter_mode(node)?,
+                }
+            }
+            Kind::Conductor => {
+                self.film(node)?;
+                Leaf::Conductor {
+                    ior: self.color(node, "ior")?,
+                    extinction: self.color(node, "extinction")?,
+                    roughness: self.slot(node, "roughness")?,
+                    retroreflective: self.boolean(node, "retroreflective")?,
+                }
+            }
+            Kind::GeneralizedSchlick => {
+                self.film(node)?;
+                Leaf::Schlick {
+                    color0: self.color(node, "color0")?,
+                    color82: self.color(node, "color82")?,
+                    color90: self.color(node, "color90")?,
+                    exponent: self.float(node, "exponent")?,
+                    roughness: self.slot(node, "roughness")?,
+                    retroreflective: self.boolean(node, "retroreflective")?,
+                    scatter_mode: self.scatter_mode(node)?,
+                }
+            }
+            // The connection's type excludes the rest.
+            _ => return Ok(Template::None),
+        };
+        self.oriented(node, leaf, weight)
+    }
+
+    fn oriented(&mut self, node: &Node<'a>, leaf: Leaf, weight: Slot<1>) -> Result<Template, Error> {
+        let normal = self.direction(node, "normal", Geometry::Normal)?;
+        let tangent = match node.def.input("tangent") {
+            Some(_) => self.direction(node, "tangent", Geometry::Tangent)?,
+            None => None,
+        };
+        if normal.is_none() && tangent.is_none() {
+            return Ok(Template::Leaf(leaf, weight));
+        }
+        Ok(Template::Oriented { leaf, weight, normal, tangent })
+    }
+
+    fn film(&mut self, node: &Node<'a>) -> Result<(), Error> {
+        if self.float(node, "thinfilm_thickness")? != Slot::Constant([0.0]) {
+            self.warn(node, "thinfilm_thickness", "thin films are not rendered: the film is ignored");
+        }
+        Ok(())
+    }
+
+    fn retro_reflective(&mut self, node: &Node<'a>) -> Result<Leaf, Error> {
+        let leaf = Leaf::RetroReflective {
+            roughness_u: self.slot_within(node, "roughness_u", Accepts::Roughness)?,
+            roughness_v: self.slot(node, "roughness_v")?,
+            tint: self.slot_within(node, "tint", Accepts::Unit)?,
+            multiscatter_tint: self.slot_within(node, "multiscatter_tint", Accepts::Unit)?,
+            tangent_u: self.direction(node, "tangent_u", Geometry::Tangent)?,
+        };
+        leaf.check(|cause| Error::OutOfRange {
+            at: node.place_of(cause.name()),
+            message: cause.to_string(),
+        })?;
+        Ok(leaf)
+    }
+
+    /// The radiance that an EDF input is connected to.
+    fn emission(&mut self, node: &Node<'a>, input: &str) -> Result<Option<u32>, Error> {
+        let Some(target) = node.connected(input) else { return Ok(None) };
+        self.emission_of(target)
+    }
+
+    fn emission_of(&mut self, target: NodeRef<'a>) -> Result<Option<u32>, Error> {
+        self.enter(target)?;
+        let radiance = if is_known(target.element) {
+            let node = Node::bind(self.graph, target)?;
+            self.edf(&node)?
+        } else {
+            let inside = self.defined(target, None)?;
+            self.emission_of(inside)?
+        };
+        self.path.pop();
+        Ok(radiance)
+    }
+
+    /// `None` for an EDF that emits nothing.
+    fn edf(&mut self, node: &Node<'a>) -> Result<Option<u32>, Error> {
+        let sum = |builder: &mut Self, parts: [Option<u32>; 2]| match parts {
+            [Some(a), Some(b)] => Some(builder.patterns.lowering.op(Op::Add, 3, &[a, b])),
+            [a, b] => a.or(b),
+        };
+        Ok(match node.def.kind {
+            Kind::UniformEdf => {
+                let color = self.color(node, "color")?;
+                (color != Slot::Constant([0.0; 3])).then(|| self.register(color))
+            }
+            Kind::AddEdf => {
+                let parts = [self.emission(node, "in1")?, self.emission(node, "in2")?];
+                sum(self, parts)
+            }
+            Kind::MultiplyEdf => {
+                let factor = self.color(node, "in2")?;
+                let factor = self.register(factor);
+                self.emission(node, "in1")?.map(|a| self.patterns.lowering.op(Op::Multiply, 3, &[a, factor]))
+            }
+            Kind::MixEdf => {
+                let amount = self.float(node, "mix")?;
+                let amount = self.register(amount);
+                let amount = self.patterns.lowering.splat(amount, 3);
+                let one = self.patterns.lowering.number(1.0, 3);
+                let rest = self.patterns.lowering.op(Op::Subtract, 3, &[one, amount]);
+                let part = |builder: &mut Self, input, share| -> Result<Option<u32>, Error> {
+                    let radiance = builder.emission(node, input)?;
+                    Ok(radiance.map(|a| builder.patterns.lowering.op(Op::Multiply, 3, &[a, share])))
+                };
+                let parts = [part(self, "fg", amount)?, part(self, "bg", rest)?];
+                sum(self, parts)
+            }
+            Kind::SchlickEdf => self.schlick_edf(node)?,
+            // The connection's type excludes the rest.
+            _ => None,
+        })
+    }
+
+    /// The base's radiance times `color0 + (color90 - color0) (1 - cos)^exponent`.
+    fn schlick_edf(&mut self, node: &Node<'a>) -> Result<Option<u32>, Error> {
+        let Some(base) = self.emission(node, "base")? else { return Ok(None) };
+        let (color0, color90) = (self.color(node, "color0")?, self.color(node, "color90")?);
+        let (color0, color90) = (self.register(color0), self.register(color90));
+        let exponent = self.float(node, "exponent")?;
+        let exponent = self.register(exponent);
+        let lowering = &mut self.patterns.lowering;
+        let (view, normal) = (lowering.geometry(Geometry::View), lowering.geometry(Geometry::Normal));
+        let cos = lowering.op(Op::Dot, 1, &[view, normal]);
+        let cos = lowering.op(Op::Abs, 1, &[cos]);
+        let one = lowering.number(1.0, 1);
+        let rest = lowering.op(Op::Subtract, 1, &[one, cos]);
+        let zero = lowering.number(0.0, 1);
+        let rest = lowering.op(Op::Max, 1, &[rest, zero]);
+        let power = lowering.op(Op::Power, 1, &[rest, exponent]);
+        let share = lowering.splat(power, 3);
+        let factor = lowering.op(Op::Mix, 3, &[color0, color90, share]);
+        Ok(Some(lowering.op(Op::Multiply, 3, &[base, factor])))
+    }
+
+    /// An input's numbers, computed ones in the range of its definition.
+    fn slot<const N: usize>(&mut self, node: &Node<'a>, input: &str) -> Result<Slot<N>, Error> {
+        let accepts = node.input(input).1.accepts;
+        self.slot_within(node, input, accepts)
+    }
+
+    fn slot_within<const N: usize>(
+        &mut self,
+        node: &Node<'a>,
+        input: &str,
+        accepts: Accepts,
+    ) -> Result<Slot<N>, Error> {
+        let (given, def) = node.input(input);
+        let numbers = |value: Value<'_>| {
+            let lanes = value.lanes();
+            core::array::from_fn(|i| lanes[i])
+        };
+        match given.feed {
+            Feed::Value { direct: true, .. } if self.graph.is_in_document(node.node.scope) => {
+                // In range, or its receiver refuses it.
+                Ok(Slot::Constant(numbers(self.patterns.constant(given.feed, def.ty())?)))
+            }
+            Feed::Default => match def.default {
+                InputDefault::Value(value) => Ok(Slot::Constant(numbers(value))),
+                _ => Ok(Slot::Constant([0.0; N])),
+            },
+            feed => {
+                let owner = node.node.element;
+                let register = self.patterns.feed(owner, feed, def.ty())?;
+                Ok(self.slot_of(register, accepts))
+            }
+        }
+    }
+
+    fn slot_of<const N: usize>(&self, register: u32, accepts: Accepts) -> Slot<N> {
+        match self.patterns.lowering.assembler.constant(register) {
+            Some(lanes) => {
+                Slot::Constant(core::array::from_fn(|i| crate::template::finite(accepts.nearest(lanes[i]))))
+            }
+            None => Slot::Register { register, accepts },
+        }
+    }
+
+    /// The register with a slot's numbers.
+    fn register<const N: usize>(&mut self, slot: Slot<N>) -> u32 {
+        match slot {
+            Slot::Register { register, .. } => register,
+            Slot::Constant(numbers) => {
+                let lanes = core::array::from_fn(|i| numbers.get(i).copied().unwrap_or(0.0));
+                self.patterns.lowering.lanes(lanes, N as u8)
+            }
+        }
+    }
+
+    fn float(&mut self, node: &Node<'a>, input: &str) -> Result<Slot<1>, Error> {
+        self.slot(node, input)
+    }
+
+    /// A colour, or a float that stands for all three channels.
+    fn color(&mut self, node: &Node<'a>, input: &str) -> Result<Slot<3>, Error> {
+        if node.input(input).1.ty() != Type::Float {
+            return self.slot(node, input);
+        }
+        match self.float(node, input)? {
+            Slot::Constant([x]) => Ok(Slot::Constant([x; 3])),
+            Slot::Register { register, accepts } => {
+                Ok(Slot::Register { register: self.patterns.lowering.splat(register, 3), accepts })
+            }
+        }
+    }
+
+    /// A direction; `None` where it is the geometry's own.
+    fn direction(&mut self, node: &Node<'a>, input: &str, own: Geometry) -> Result<Option<Slot<3>>, Error> {
+        let (given, _) = node.input(input);
+        if matches!(given.feed, Feed::Default) {
+            return Ok(None);
+        }
+        let slot: Slot<3> = self.slot(node, input)?;
+        let is_own =
+            slot.register().is_some() && slot.register() == Some(self.patterns.lowering.geometry(own));
+        Ok((!is_own).then_some(slot))
+    }
+
+    fn boolean(&mut self, node: &Node<'a>, input: &str) -> Result<bool, Error> {
+        match self.uniform(node, input)? {
+            Value::Boolean(x) => Ok(x),
+            _ => Ok(false),
+        }
+    }
+
+    fn word(&mut self, node: &Node<'a>, input: &str) -> Result<&'a str, Error> {
+        match self.uniform(node, input)? {
+            Value::String(x) => Ok(x),
+            _ => Ok(""),
+        }
+    }
+
+    /// A value that can't vary over the surface.
+    fn uniform(&mut self, node: &Node<'a>, input: &str) -> Result<Value<'a>, Error> {
+        let (given, def) = node.input(input);
+        match (given.feed, def.default) {
+            (Feed::Value { .. }, _) => self.patterns.constant(given.feed, def.ty()),
+            (Feed::Node { .. }, _) if def.ty() == Type::Boolean => {
+                let register = self.patterns.feed(node.node.element, given.feed, def.ty())?;
+                let constant = self.patterns.lowering.assembler.constant(register);
+                constant.map(|lanes| Value::Boolean(lanes[0] != 0.0)).ok_or_else(|| varies(node, input))
+            }
+            (Feed::Node { .. }, _) => Err(varies(node, input)),
+            (_, InputDefault::Value(value)) => Ok(value),
+            _ => Err(varies(node, input)),
+        }
+    }
+
+    fn scatter_mode(&mut self, node: &Node<'a>) -> Result<ScatterMode, Error> {
+        Ok(match self.word(node, "scatter_mode")? {
+            "T" => ScatterMode::Transmit,
+            "RT" => ScatterMode::ReflectTransmit,
+            _ => ScatterMode::Reflect,
         })
     }
 }
 
-fn retro_reflective(node: &Node<'_>) -> Result<Closure, Error> {
-    let roughness_v = node.float("roughness_v");
-    let params = Params {
-        roughness_u: node.float("roughness_u"),
-        // MaterialX has no default that refers to another input: a negative value means "as roughness_u".
-        roughness_v: (roughness_v >= 0.0).then_some(roughness_v),
-        tint: node.color("tint"),
-        multiscatter_tint: node.color("multiscatter_tint"),
-    };
-    as_written(&params)
-        .validate()
-        .map_err(|cause| Error::OutOfRange { at: node.place_of(cause.name()), message: cause.to_string() })?;
-    let tangent_u = node.direction("tangent_u").map(unit);
-    Ok(Closure::RetroReflective { weight: node.float("weight"), params, tangent_u })
-}
-
-/// The parameters to more digits, so that a refusal shows 1.1 and not 1.100000023841858, the f32 next to it.
-fn as_written(params: &Params<f32>) -> Params<f64> {
-    let written = |x: f32| x.to_string().parse().unwrap_or(f64::from(x));
-    Params {
-        roughness_u: written(params.roughness_u),
-        roughness_v: params.roughness_v.map(written),
-        tint: params.tint.map(written),
-        multiscatter_tint: params.multiscatter_tint.map(written),
+fn varies(node: &Node<'_>, input: &str) -> Error {
+    Error::Unsupported {
+        at: node.place_of(input),
+        what: "a connection to an input that is the same everywhere".to_owned(),
+        instead: "write the value itself".to_owned(),
     }
-}
-
-fn oren_nayar_diffuse(node: &Node<'_>) -> Closure {
-    Closure::OrenNayarDiffuse {
-        weight: node.float("weight"),
-        color: node.color("color"),
-        roughness: node.float("roughness"),
-        energy_compensation: node.boolean("energy_compensation"),
-    }
-}
-
-fn dielectric(node: &Node<'_>) -> Closure {
-    Closure::Dielectric {
-        weight: node.float("weight"),
-        tint: node.color("tint"),
-        ior: node.float("ior"),
-        roughness: node.vector2("roughness"),
-        scatter_mode: match node.word("scatter_mode") {
-            "T" => ScatterMode::Transmit,
-            "RT" => ScatterMode::ReflectTransmit,
-            _ => ScatterMode::Reflect,
-        },
-    }
-}
-
-/// The direction at length 1, whatever its length; it must be finite and not zero.
-fn unit(direction: [f32; 3]) -> [f32; 3] {
-    let largest = direction.iter().fold(0.0_f32, |largest, x| largest.max(x.abs()));
-    let scaled = direction.map(|x| x / largest);
-    let length = scaled.iter().map(|x| x * x).sum::<f32>().sqrt();
-    scaled.map(|x| x / length)
 }

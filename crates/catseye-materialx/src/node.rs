@@ -1,147 +1,140 @@
-//! A node with its definition, its inputs checked against it.
+//! A built-in BSDF or shader node with its definition, its inputs checked against it.
 
 use crate::{
     element::Element,
     error::{Error, Place, listed, quoted},
-    graph::{Graph, NodeRef},
-    input::{Feed, feed},
-    nodedef::{InputDef, InputDefault, NODE_DEFS, NodeDef, categories},
-    value::{Type, Value},
+    graph::{Feed, Graph, MOST_PROBLEMS, NodeRef},
+    input::{feed, unknown_category},
+    nodedef::{InputDef, NODE_DEFS, NodeDef},
+    value::Type,
 };
 
 /// A node whose category, type and inputs agree with its definition.
 #[derive(Debug)]
 pub(crate) struct Node<'a> {
-    pub(crate) element: &'a Element,
+    pub(crate) node: NodeRef<'a>,
     pub(crate) def: &'static NodeDef,
     /// In the order of the definition's inputs.
     inputs: Vec<Input<'a>>,
 }
 
+/// What an input of a node is given.
 #[derive(Clone, Copy, Debug)]
-struct Input<'a> {
-    element: Option<&'a Element>,
-    feed: Feed<'a>,
+pub(crate) struct Input<'a> {
+    pub(crate) element: Option<&'a Element>,
+    pub(crate) feed: Feed<'a>,
 }
 
 impl<'a> Node<'a> {
-    /// Finds the node's definition and checks all its inputs, connections one step far.
+    /// Finds the node's definition and checks all its inputs, connections one step far; the first problem is an error.
     pub(crate) fn bind(graph: &Graph<'a>, node: NodeRef<'a>) -> Result<Self, Error> {
-        let def = definition(node.element)?;
+        let mut problems = Vec::new();
+        let bound = Self::bind_all(graph, node, &mut problems);
+        if !problems.is_empty() {
+            return Err(problems.swap_remove(0));
+        }
+        bound.ok_or_else(|| unknown_category(graph, node.element))
+    }
+
+    /// As [`Self::bind`], with all problems; `None` where the definition is not known.
+    pub(crate) fn bind_all(graph: &Graph<'a>, node: NodeRef<'a>, problems: &mut Vec<Error>) -> Option<Self> {
+        let def = match definitions(graph, node.element) {
+            Ok(defs) => definition(defs, node.element, problems),
+            Err(problem) => {
+                problems.push(problem);
+                return None;
+            }
+        };
         let mut inputs = vec![Input { element: None, feed: Feed::Default }; def.inputs.len()];
+        let most = problems.len() + MOST_PROBLEMS;
         for child in node.element.children() {
-            let name = node.element.require_of(child, "name")?;
-            // `definition` has made sure that there is such an input.
-            let Some((index, input)) = def.input(name) else { continue };
+            if problems.len() >= most {
+                break;
+            }
+            // `definition` has reported inputs without a name, and those that there aren't.
+            let Some((index, input)) = child.name().and_then(|name| def.input(name)) else { continue };
+            if child.tag() != "input" || child.attribute("type") != Some(input.ty().name()) {
+                continue;
+            }
             if let Some(first) = inputs[index].element {
                 let first_line = first.place().line;
-                return Err(Error::DuplicateName { at: node.element.place_of(child), first_line });
+                problems.push(Error::DuplicateName { at: node.element.place_of(child), first_line });
+                continue;
             }
-            inputs[index] = Input { element: Some(child), feed: feed(graph, node, child, input)? };
+            match feed(graph, node, child, input) {
+                Ok(feed) => inputs[index] = Input { element: Some(child), feed },
+                Err(problem) => problems.push(problem),
+            }
         }
-        Ok(Self { element: node.element, def, inputs })
+        Some(Self { node, def, inputs })
+    }
+
+    /// What feeds its inputs.
+    pub(crate) fn feeds(self) -> Vec<Feed<'a>> {
+        self.inputs.into_iter().map(|input| input.feed).collect()
     }
 
     /// The node that an input is connected to.
     pub(crate) fn connected(&self, input: &str) -> Option<NodeRef<'a>> {
         match self.input(input).0.feed {
-            Feed::Node(node) => Some(node),
-            Feed::Default | Feed::Value(_) => None,
-        }
-    }
-
-    /// The value of an input, where it is not the geometry's.
-    fn value(&self, input: &str) -> Option<Value<'a>> {
-        match self.input(input) {
-            (Input { feed: Feed::Value(value), .. }, _) => Some(*value),
-            (_, InputDef { default: InputDefault::Value(value), .. }) => Some(*value),
+            Feed::Node { node, .. } => Some(node),
             _ => None,
-        }
-    }
-
-    pub(crate) fn float(&self, input: &str) -> f32 {
-        match self.value(input) {
-            Some(Value::Float(x)) => x,
-            other => self.disagreement(input, other),
-        }
-    }
-
-    pub(crate) fn boolean(&self, input: &str) -> bool {
-        match self.value(input) {
-            Some(Value::Boolean(x)) => x,
-            other => self.disagreement(input, other),
-        }
-    }
-
-    pub(crate) fn vector2(&self, input: &str) -> [f32; 2] {
-        match self.value(input) {
-            Some(Value::Vector2(x)) => x,
-            other => self.disagreement(input, other),
-        }
-    }
-
-    /// A direction; `None` where it is the geometry's.
-    pub(crate) fn direction(&self, input: &str) -> Option<[f32; 3]> {
-        match self.value(input) {
-            None => None,
-            Some(Value::Vector3(x)) => Some(x),
-            other => self.disagreement(input, other),
-        }
-    }
-
-    /// A colour, or a float that stands for all three channels.
-    pub(crate) fn color(&self, input: &str) -> [f32; 3] {
-        match self.value(input) {
-            Some(Value::Color3(x)) => x,
-            Some(Value::Float(x)) => [x; 3],
-            other => self.disagreement(input, other),
-        }
-    }
-
-    pub(crate) fn word(&self, input: &str) -> &'a str {
-        match self.value(input) {
-            Some(Value::String(x)) => x,
-            other => self.disagreement(input, other),
         }
     }
 
     /// Where an input stands; the node where the input is left to its default.
     pub(crate) fn place_of(&self, input: &str) -> Place {
         match self.input(input).0.element {
-            Some(child) => self.element.place_of(child),
-            None => self.element.place(),
+            Some(child) => self.node.element.place_of(child),
+            None => self.node.element.place(),
         }
     }
 
-    fn input(&self, name: &str) -> (&Input<'a>, &'static InputDef) {
+    pub(crate) fn input(&self, name: &str) -> (Input<'a>, &'static InputDef) {
         match self.def.input(name) {
-            Some((index, input)) => (&self.inputs[index], input),
-            None => self.disagreement(name, None),
+            Some((index, input)) => (self.inputs[index], input),
+            // The definitions and the code that reads nodes disagree: no document can cause this. The test
+            // `defaults_are_those_of_the_node_definitions` reads every input of every category.
+            None => unreachable!("{}'s definition: there is no input {name}", self.def.category),
         }
-    }
-
-    /// The definitions and the code that reads nodes disagree: no document can cause this. The test
-    /// `defaults_are_those_of_the_node_definitions` reads every input of every category.
-    fn disagreement(&self, input: &str, value: Option<Value<'_>>) -> ! {
-        unreachable!("{}'s definition: input {input} has value {value:?}", self.def.category)
     }
 }
 
-/// The definition that fits the element's category, type, and the names and types of its inputs.
-fn definition(node: &Element) -> Result<&'static NodeDef, Error> {
-    let mut defs = definitions(node)?;
+/// The definition that fits the names and types of the element's inputs; what fits none is a problem.
+fn definition(
+    mut defs: Vec<&'static NodeDef>,
+    node: &Element,
+    problems: &mut Vec<Error>,
+) -> &'static NodeDef {
+    let most = problems.len() + MOST_PROBLEMS;
     for child in node.children() {
-        narrow(&mut defs, node, child)?;
+        if problems.len() >= most {
+            break;
+        }
+        if let Err(problem) = narrow(&mut defs, node, child) {
+            problems.push(problem);
+        }
     }
-    // `definitions` and `narrow` leave at least one; of several the first is the one MaterialX would take.
-    Ok(defs[0])
+    // Of several the first is the one MaterialX would take.
+    defs[0]
+}
+
+/// Whether there are built-in BSDF or shader nodes of this category and type.
+pub(crate) fn is_known(element: &Element) -> bool {
+    let ty = element.attribute("type");
+    NODE_DEFS.iter().any(|def| def.category == element.tag() && Some(def.output.name()) == ty)
+}
+
+/// Whether there are built-in BSDF or shader nodes of this category.
+pub(crate) fn has_category(element: &Element) -> bool {
+    NODE_DEFS.iter().any(|def| def.category == element.tag())
 }
 
 /// The definitions of an element's category and type; at least one.
-pub(crate) fn definitions(node: &Element) -> Result<Vec<&'static NodeDef>, Error> {
+fn definitions(graph: &Graph<'_>, node: &Element) -> Result<Vec<&'static NodeDef>, Error> {
     let mut defs: Vec<&NodeDef> = NODE_DEFS.iter().filter(|def| def.category == node.tag()).collect();
     if defs.is_empty() {
-        return Err(Error::UnknownCategory { at: node.place(), known: listed(categories()) });
+        return Err(unknown_category(graph, node));
     }
     let ty = node.require("type")?;
     let expected = one_of(defs.iter().map(|def| def.output));
@@ -163,24 +156,27 @@ fn narrow(defs: &mut Vec<&'static NodeDef>, node: &Element, child: &Element) -> 
         });
     }
     let (name, ty) = (node.require_of(child, "name")?, node.require_of(child, "type")?);
-    let category = defs[0].category;
-    let known = defs[0].inputs.iter().map(|input| input.name);
-    defs.retain(|def| def.input(name).is_some());
-    if defs.is_empty() {
-        return Err(Error::UnknownInput { at: at(), category, known: listed(known) });
+    if !defs.iter().any(|def| def.input(name).is_some()) {
+        let known = listed(defs[0].inputs.iter().map(|input| input.name));
+        return Err(Error::UnknownInput { at: at(), category: defs[0].category.to_owned(), known });
     }
+    defs.retain(|def| def.input(name).is_some());
     let type_of = |def: &NodeDef| def.input(name).map(|(_, input)| input.ty());
-    let expected = one_of(defs.iter().filter_map(|def| type_of(def)));
-    defs.retain(|def| type_of(def).is_some_and(|expected| expected.name() == ty));
-    if defs.is_empty() {
+    if !defs.iter().any(|def| type_of(def).is_some_and(|expected| expected.name() == ty)) {
+        let expected = one_of(defs.iter().filter_map(|def| type_of(def)));
         return Err(Error::WrongType { at: at(), found: quoted(ty), expected });
     }
+    defs.retain(|def| type_of(def).is_some_and(|expected| expected.name() == ty));
     Ok(())
 }
 
 /// The types' names, each once, for messages.
 fn one_of(types: impl Iterator<Item = Type>) -> String {
-    let mut names: Vec<&str> = types.map(Type::name).collect();
-    names.dedup();
+    let mut names: Vec<&str> = Vec::new();
+    for ty in types {
+        if !names.contains(&ty.name()) {
+            names.push(ty.name());
+        }
+    }
     names.join(" or ")
 }

@@ -10,12 +10,26 @@ use crate::value::{Type, Value};
 pub(crate) enum Kind {
     RetroReflective,
     OrenNayarDiffuse,
+    BurleyDiffuse,
+    Translucent,
+    Subsurface,
+    Sheen,
     Dielectric,
+    Conductor,
+    GeneralizedSchlick,
     Mix,
     Layer,
+    /// A BSDF over a volume.
+    LayerVolume,
     Add,
     Multiply,
+    UniformEdf,
+    SchlickEdf,
+    MixEdf,
+    AddEdf,
+    MultiplyEdf,
     Surface,
+    SurfaceUnlit,
     SurfaceMaterial,
 }
 
@@ -68,7 +82,7 @@ pub(crate) enum InputDefault {
 }
 
 /// Which values an input may have, beyond its type.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Accepts {
     /// Every one; or the receiver checks.
     Any,
@@ -76,6 +90,10 @@ pub(crate) enum Accepts {
     Unit,
     /// `(0, inf)`, each component.
     Positive,
+    /// `[0, inf)`, each component.
+    NotNegative,
+    /// `[0, inf]`: what a computed roughness is brought to.
+    Roughness,
     /// A direction: finite and not zero.
     Direction,
     /// One of these words.
@@ -89,9 +107,10 @@ impl Accepts {
     pub(crate) fn refusal(self, value: Value<'_>) -> Option<String> {
         let all = |inside: fn(f32) -> bool| value.components().iter().all(|&x| inside(x));
         let (accepted, range) = match self {
-            Self::Any | Self::DefaultOnly => return None,
+            Self::Any | Self::Roughness | Self::DefaultOnly => return None,
             Self::Unit => (all(|x| (0.0..=1.0).contains(&x)), "outside [0, 1]".to_owned()),
             Self::Positive => (all(|x| x > 0.0 && x.is_finite()), "outside (0, inf)".to_owned()),
+            Self::NotNegative => (all(|x| x >= 0.0 && x.is_finite()), "outside [0, inf)".to_owned()),
             Self::Direction => (
                 all(f32::is_finite) && value.components().iter().any(|&x| x != 0.0),
                 "not a direction; write one like 1, 0, 0".to_owned(),
@@ -102,6 +121,21 @@ impl Accepts {
             }
         };
         (!accepted).then_some(range)
+    }
+}
+
+impl Accepts {
+    /// The nearest acceptable number: computed values are brought into range, written ones are refused.
+    pub(crate) fn nearest(self, x: f32) -> f32 {
+        /// A refractive index that is no longer singular.
+        const SMALLEST: f32 = 1e-3;
+        match self {
+            Self::Unit => x.clamp(0.0, 1.0),
+            Self::Positive => x.clamp(SMALLEST, f32::MAX),
+            Self::NotNegative => x.clamp(0.0, f32::MAX),
+            Self::Roughness => x.max(0.0),
+            Self::Any | Self::Direction | Self::Words(_) | Self::DefaultOnly => x,
+        }
     }
 }
 
@@ -155,7 +189,7 @@ pub(crate) static NODE_DEFS: &[NodeDef] = &[
             color("tint", 1.0),
             color("multiscatter_tint", 0.0),
             geometry("tangent_u", "Tworld").accepting(Accepts::Direction),
-            geometry("normal", "Nworld"),
+            geometry("normal", "Nworld").accepting(Accepts::Direction),
         ],
     },
     NodeDef {
@@ -166,7 +200,7 @@ pub(crate) static NODE_DEFS: &[NodeDef] = &[
             unit_float("weight", 1.0),
             unit_color("color", 0.18),
             unit_float("roughness", 0.0),
-            geometry("normal", "Nworld"),
+            geometry("normal", "Nworld").accepting(Accepts::Direction),
             flag("energy_compensation", false),
         ],
     },
@@ -179,14 +213,96 @@ pub(crate) static NODE_DEFS: &[NodeDef] = &[
             unit_color("tint", 1.0),
             float("ior", 1.5).accepting(Accepts::Positive),
             input("roughness", Value::Vector2([0.05; 2])).accepting(Accepts::Unit),
-            flag("retroreflective", false).accepting(Accepts::DefaultOnly),
+            flag("retroreflective", false),
             float("thinfilm_thickness", 0.0).accepting(Accepts::DefaultOnly),
             // Without a film its index does nothing.
             float("thinfilm_ior", 1.5),
-            geometry("normal", "Nworld"),
-            geometry("tangent", "Tworld"),
+            geometry("normal", "Nworld").accepting(Accepts::Direction),
+            geometry("tangent", "Tworld").accepting(Accepts::Direction),
             word("distribution", "ggx", &["ggx"]),
             word("scatter_mode", "R", &["R", "T", "RT"]),
+        ],
+    },
+    NodeDef {
+        category: "conductor_bsdf",
+        kind: Kind::Conductor,
+        output: Type::Bsdf,
+        inputs: &[
+            unit_float("weight", 1.0),
+            input("ior", Value::Color3([0.183, 0.421, 1.373])).accepting(Accepts::NotNegative),
+            input("extinction", Value::Color3([3.424, 2.346, 1.770])).accepting(Accepts::NotNegative),
+            input("roughness", Value::Vector2([0.05; 2])).accepting(Accepts::Unit),
+            flag("retroreflective", false),
+            float("thinfilm_thickness", 0.0).accepting(Accepts::DefaultOnly),
+            float("thinfilm_ior", 1.5),
+            geometry("normal", "Nworld").accepting(Accepts::Direction),
+            geometry("tangent", "Tworld").accepting(Accepts::Direction),
+            word("distribution", "ggx", &["ggx"]),
+        ],
+    },
+    NodeDef {
+        category: "generalized_schlick_bsdf",
+        kind: Kind::GeneralizedSchlick,
+        output: Type::Bsdf,
+        inputs: &[
+            unit_float("weight", 1.0),
+            unit_color("color0", 1.0),
+            unit_color("color82", 1.0),
+            unit_color("color90", 1.0),
+            float("exponent", 5.0).accepting(Accepts::NotNegative),
+            input("roughness", Value::Vector2([0.05; 2])).accepting(Accepts::Unit),
+            flag("retroreflective", false),
+            float("thinfilm_thickness", 0.0).accepting(Accepts::DefaultOnly),
+            float("thinfilm_ior", 1.5),
+            geometry("normal", "Nworld").accepting(Accepts::Direction),
+            geometry("tangent", "Tworld").accepting(Accepts::Direction),
+            word("distribution", "ggx", &["ggx"]),
+            word("scatter_mode", "R", &["R", "T", "RT"]),
+        ],
+    },
+    NodeDef {
+        category: "burley_diffuse_bsdf",
+        kind: Kind::BurleyDiffuse,
+        output: Type::Bsdf,
+        inputs: &[
+            unit_float("weight", 1.0),
+            unit_color("color", 0.18),
+            unit_float("roughness", 0.0),
+            geometry("normal", "Nworld").accepting(Accepts::Direction),
+        ],
+    },
+    NodeDef {
+        category: "translucent_bsdf",
+        kind: Kind::Translucent,
+        output: Type::Bsdf,
+        inputs: &[
+            unit_float("weight", 1.0),
+            unit_color("color", 1.0),
+            geometry("normal", "Nworld").accepting(Accepts::Direction),
+        ],
+    },
+    NodeDef {
+        category: "subsurface_bsdf",
+        kind: Kind::Subsurface,
+        output: Type::Bsdf,
+        inputs: &[
+            unit_float("weight", 1.0),
+            unit_color("color", 0.18),
+            input("radius", Value::Color3([1.0; 3])).accepting(Accepts::NotNegative),
+            float("anisotropy", 0.0),
+            geometry("normal", "Nworld").accepting(Accepts::Direction),
+        ],
+    },
+    NodeDef {
+        category: "sheen_bsdf",
+        kind: Kind::Sheen,
+        output: Type::Bsdf,
+        inputs: &[
+            unit_float("weight", 1.0),
+            unit_color("color", 1.0),
+            unit_float("roughness", 0.3),
+            geometry("normal", "Nworld").accepting(Accepts::Direction),
+            word("mode", "conty_kulla", &["conty_kulla", "zeltner"]),
         ],
     },
     NodeDef {
@@ -200,6 +316,12 @@ pub(crate) static NODE_DEFS: &[NodeDef] = &[
         kind: Kind::Layer,
         output: Type::Bsdf,
         inputs: &[connection("top", Type::Bsdf), connection("base", Type::Bsdf)],
+    },
+    NodeDef {
+        category: "layer",
+        kind: Kind::LayerVolume,
+        output: Type::Bsdf,
+        inputs: &[connection("top", Type::Bsdf), connection("base", Type::Vdf)],
     },
     NodeDef {
         category: "add",
@@ -220,12 +342,65 @@ pub(crate) static NODE_DEFS: &[NodeDef] = &[
         inputs: &[connection("in1", Type::Bsdf), unit_color("in2", 1.0)],
     },
     NodeDef {
+        category: "uniform_edf",
+        kind: Kind::UniformEdf,
+        output: Type::Edf,
+        inputs: &[color("color", 1.0).accepting(Accepts::NotNegative)],
+    },
+    NodeDef {
+        category: "generalized_schlick_edf",
+        kind: Kind::SchlickEdf,
+        output: Type::Edf,
+        inputs: &[
+            unit_color("color0", 1.0),
+            unit_color("color90", 1.0),
+            float("exponent", 5.0).accepting(Accepts::NotNegative),
+            connection("base", Type::Edf),
+        ],
+    },
+    NodeDef {
+        category: "mix",
+        kind: Kind::MixEdf,
+        output: Type::Edf,
+        inputs: &[connection("fg", Type::Edf), connection("bg", Type::Edf), unit_float("mix", 0.0)],
+    },
+    NodeDef {
+        category: "add",
+        kind: Kind::AddEdf,
+        output: Type::Edf,
+        inputs: &[connection("in1", Type::Edf), connection("in2", Type::Edf)],
+    },
+    NodeDef {
+        category: "multiply",
+        kind: Kind::MultiplyEdf,
+        output: Type::Edf,
+        inputs: &[connection("in1", Type::Edf), float("in2", 1.0).accepting(Accepts::NotNegative)],
+    },
+    NodeDef {
+        category: "multiply",
+        kind: Kind::MultiplyEdf,
+        output: Type::Edf,
+        inputs: &[connection("in1", Type::Edf), color("in2", 1.0).accepting(Accepts::NotNegative)],
+    },
+    NodeDef {
+        category: "surface_unlit",
+        kind: Kind::SurfaceUnlit,
+        output: Type::SurfaceShader,
+        inputs: &[
+            float("emission", 1.0).accepting(Accepts::NotNegative),
+            color("emission_color", 1.0).accepting(Accepts::NotNegative),
+            float("transmission", 0.0).accepting(Accepts::DefaultOnly),
+            color("transmission_color", 1.0),
+            unit_float("opacity", 1.0),
+        ],
+    },
+    NodeDef {
         category: "surface",
         kind: Kind::Surface,
         output: Type::SurfaceShader,
         inputs: &[
             connection("bsdf", Type::Bsdf),
-            connection("edf", Type::Edf).accepting(Accepts::DefaultOnly),
+            connection("edf", Type::Edf),
             unit_float("opacity", 1.0),
             flag("thin_walled", false).accepting(Accepts::DefaultOnly),
         ],
@@ -241,13 +416,3 @@ pub(crate) static NODE_DEFS: &[NodeDef] = &[
         ],
     },
 ];
-
-/// The known categories in the table's order, each once.
-pub(crate) fn categories() -> impl Iterator<Item = &'static str> {
-    let mut last = "";
-    NODE_DEFS.iter().map(|def| def.category).filter(move |&category| {
-        let first = category != last;
-        last = category;
-        first
-    })
-}

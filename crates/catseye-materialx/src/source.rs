@@ -1,6 +1,9 @@
 //! The text of a document and places in it.
 
-use std::sync::Arc;
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use crate::error::Place;
 
@@ -9,11 +12,21 @@ use crate::error::Place;
 pub(crate) struct Source {
     name: Arc<str>,
     text: Box<str>,
+    folder: Option<PathBuf>,
 }
 
 impl Source {
     pub(crate) fn new(name: &str, text: &str) -> Self {
-        Self { name: name.into(), text: text.into() }
+        Self { name: name.into(), text: text.into(), folder: None }
+    }
+
+    /// A document that lies in a folder, from which the files that it names are sought.
+    pub(crate) fn in_folder(name: &str, text: &str, folder: &Path) -> Self {
+        Self { folder: Some(folder.to_owned()), ..Self::new(name, text) }
+    }
+
+    pub(crate) fn folder(&self) -> Option<&Path> {
+        self.folder.as_deref()
     }
 
     pub(crate) fn name(&self) -> &Arc<str> {

@@ -3,36 +3,97 @@
 use crate::error::quoted;
 
 /// The types of inputs and outputs that the known nodes have.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub(crate) enum Type {
     Boolean,
+    Integer,
     Float,
     Color3,
+    Color4,
     Vector2,
     Vector3,
+    Vector4,
+    Matrix33,
+    Matrix44,
     String,
+    Filename,
     Bsdf,
     Edf,
+    Vdf,
     SurfaceShader,
     DisplacementShader,
+    VolumeShader,
+    LightShader,
     Material,
+    MultiOutput,
 }
+
+/// Every type, for the way back from its name.
+const TYPES: &[Type] = &[
+    Type::Boolean,
+    Type::Integer,
+    Type::Float,
+    Type::Color3,
+    Type::Color4,
+    Type::Vector2,
+    Type::Vector3,
+    Type::Vector4,
+    Type::Matrix33,
+    Type::Matrix44,
+    Type::String,
+    Type::Filename,
+    Type::Bsdf,
+    Type::Edf,
+    Type::Vdf,
+    Type::SurfaceShader,
+    Type::DisplacementShader,
+    Type::VolumeShader,
+    Type::LightShader,
+    Type::Material,
+    Type::MultiOutput,
+];
 
 impl Type {
     /// The name in documents.
     pub(crate) const fn name(self) -> &'static str {
         match self {
             Self::Boolean => "boolean",
+            Self::Integer => "integer",
             Self::Float => "float",
             Self::Color3 => "color3",
+            Self::Color4 => "color4",
             Self::Vector2 => "vector2",
             Self::Vector3 => "vector3",
+            Self::Vector4 => "vector4",
+            Self::Matrix33 => "matrix33",
+            Self::Matrix44 => "matrix44",
             Self::String => "string",
+            Self::Filename => "filename",
             Self::Bsdf => "BSDF",
             Self::Edf => "EDF",
+            Self::Vdf => "VDF",
             Self::SurfaceShader => "surfaceshader",
             Self::DisplacementShader => "displacementshader",
+            Self::VolumeShader => "volumeshader",
+            Self::LightShader => "lightshader",
             Self::Material => "material",
+            Self::MultiOutput => "multioutput",
+        }
+    }
+
+    /// The type of this name.
+    pub(crate) fn parse(name: &str) -> Option<Self> {
+        TYPES.iter().copied().find(|ty| ty.name() == name)
+    }
+
+    /// How many numbers a value has; 0 where it is none that a pattern can compute.
+    pub(crate) const fn width(self) -> u8 {
+        match self {
+            Self::Boolean | Self::Integer | Self::Float => 1,
+            Self::Vector2 => 2,
+            Self::Color3 | Self::Vector3 => 3,
+            Self::Color4 | Self::Vector4 => 4,
+            _ => 0,
         }
     }
 
@@ -40,14 +101,18 @@ impl Type {
     pub(crate) const fn example(self) -> &'static str {
         match self {
             Self::Boolean => "a boolean; write true or false",
+            Self::Integer => "an integer; write one like 3",
             Self::Float => "a number; write one like 0.5",
             Self::Vector2 => "a vector2; write two numbers like 0.1, 0.2",
             Self::Color3 => "a color3; write three numbers like 0.8, 0.8, 0.8",
+            Self::Color4 => "a color4; write four numbers like 0.8, 0.8, 0.8, 1",
             Self::Vector3 => "a vector3; write three numbers like 1, 0, 0",
+            Self::Vector4 => "a vector4; write four numbers like 1, 0, 0, 0",
+            Self::Matrix33 => "a matrix33; write nine numbers, row by row",
+            Self::Matrix44 => "a matrix44; write sixteen numbers, row by row",
             Self::String => "a string",
-            Self::Bsdf | Self::Edf | Self::SurfaceShader | Self::DisplacementShader | Self::Material => {
-                "possible here; connect a node with nodename=\"...\""
-            }
+            Self::Filename => "a file name",
+            _ => "possible here; connect a node with nodename=\"...\"",
         }
     }
 }
@@ -56,11 +121,17 @@ impl Type {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Value<'a> {
     Boolean(bool),
+    Integer(i32),
     Float(f32),
     Color3([f32; 3]),
+    Color4([f32; 4]),
     Vector2([f32; 2]),
     Vector3([f32; 3]),
+    Vector4([f32; 4]),
+    Matrix33([f32; 9]),
+    Matrix44([f32; 16]),
     String(&'a str),
+    Filename(&'a str),
 }
 
 impl<'a> Value<'a> {
@@ -68,23 +139,35 @@ impl<'a> Value<'a> {
     pub(crate) fn parse(ty: Type, text: &'a str) -> Option<Self> {
         match ty {
             Type::Boolean => text.trim().parse().ok().map(Value::Boolean),
+            Type::Integer => text.trim().parse().ok().map(Value::Integer),
             Type::Float => number(text).map(Value::Float),
             Type::Color3 => numbers(text).map(Value::Color3),
+            Type::Color4 => numbers(text).map(Value::Color4),
             Type::Vector2 => numbers(text).map(Value::Vector2),
             Type::Vector3 => numbers(text).map(Value::Vector3),
+            Type::Vector4 => numbers(text).map(Value::Vector4),
+            Type::Matrix33 => numbers(text).map(Value::Matrix33),
+            Type::Matrix44 => numbers(text).map(Value::Matrix44),
             Type::String => Some(Value::String(text)),
-            Type::Bsdf | Type::Edf | Type::SurfaceShader | Type::DisplacementShader | Type::Material => None,
+            Type::Filename => Some(Value::Filename(text)),
+            _ => None,
         }
     }
 
     pub(crate) const fn ty(self) -> Type {
         match self {
             Value::Boolean(_) => Type::Boolean,
+            Value::Integer(_) => Type::Integer,
             Value::Float(_) => Type::Float,
             Value::Color3(_) => Type::Color3,
+            Value::Color4(_) => Type::Color4,
             Value::Vector2(_) => Type::Vector2,
             Value::Vector3(_) => Type::Vector3,
+            Value::Vector4(_) => Type::Vector4,
+            Value::Matrix33(_) => Type::Matrix33,
+            Value::Matrix44(_) => Type::Matrix44,
             Value::String(_) => Type::String,
+            Value::Filename(_) => Type::Filename,
         }
     }
 
@@ -93,9 +176,23 @@ impl<'a> Value<'a> {
         match self {
             Value::Float(x) => core::slice::from_ref(x),
             Value::Color3(x) | Value::Vector3(x) => x,
+            Value::Color4(x) | Value::Vector4(x) => x,
             Value::Vector2(x) => x,
-            Value::Boolean(_) | Value::String(_) => &[],
+            Value::Matrix33(x) => x,
+            Value::Matrix44(x) => x,
+            Value::Boolean(_) | Value::Integer(_) | Value::String(_) | Value::Filename(_) => &[],
         }
+    }
+
+    /// The value as a pattern computes with it: up to four numbers, the rest 0.
+    pub(crate) fn lanes(&self) -> [f32; 4] {
+        let mut lanes = [0.0; 4];
+        match self {
+            Value::Boolean(x) => lanes[0] = f32::from(u8::from(*x)),
+            Value::Integer(x) => lanes[0] = *x as f32,
+            _ => lanes.iter_mut().zip(self.components()).for_each(|(lane, x)| *lane = *x),
+        }
+        lanes
     }
 }
 
@@ -103,7 +200,8 @@ impl core::fmt::Display for Value<'_> {
     fn fmt(&self, f: &mut core::fmt::Formatter<'_>) -> core::fmt::Result {
         match self {
             Value::Boolean(x) => write!(f, "{x}"),
-            Value::String(x) => f.write_str(&quoted(x)),
+            Value::Integer(x) => write!(f, "{x}"),
+            Value::String(x) | Value::Filename(x) => f.write_str(&quoted(x)),
             _ => {
                 let numbers = self.components().iter().map(f32::to_string).collect::<Vec<_>>();
                 f.write_str(&numbers.join(", "))
@@ -128,14 +226,93 @@ fn numbers<const N: usize>(text: &str) -> Option<[f32; N]> {
     numbers.try_into().ok()
 }
 
-/// Converts a colour to linear Rec. 709.
-pub(crate) type ToLinear = fn(f32) -> f32;
+/// How a colour becomes linear Rec. 709: a transfer function for each channel, then a change of primaries.
+#[derive(Debug)]
+pub(crate) struct ColorSpace {
+    /// The name in documents.
+    pub(crate) name: &'static str,
+    transfer: fn(f32) -> f32,
+    primaries: Option<[[f32; 3]; 3]>,
+}
 
-/// Colour spaces by their names in documents, with the conversion of one channel.
-pub(crate) const COLOR_SPACES: &[(&str, ToLinear)] =
-    &[("lin_rec709", |x| x), ("raw", |x| x), ("none", |x| x), ("srgb_texture", linear_from_srgb)];
+impl ColorSpace {
+    pub(crate) fn to_linear(&self, color: [f32; 3]) -> [f32; 3] {
+        self.mix_primaries(color.map(self.transfer))
+    }
+
+    /// One channel without its transfer function.
+    pub(crate) fn transfer(&self, x: f32) -> f32 {
+        (self.transfer)(x)
+    }
+
+    pub(crate) fn has_primaries(&self) -> bool {
+        self.primaries.is_some()
+    }
+
+    /// Rec. 709 from the space's own primaries.
+    pub(crate) fn mix_primaries(&self, linear: [f32; 3]) -> [f32; 3] {
+        match &self.primaries {
+            None => linear,
+            Some(rows) => rows.map(|row| row.iter().zip(linear).map(|(m, x)| m * x).sum()),
+        }
+    }
+
+    /// The space of this name.
+    pub(crate) fn named(name: &str) -> Option<&'static Self> {
+        // Names of other versions of MaterialX.
+        let name = match name {
+            "gamma18" => "g18_rec709",
+            "gamma22" => "g22_rec709",
+            "gamma24" => "rec709_display",
+            "lin_rec709_scene" => "lin_rec709",
+            "lin_ap1" | "lin_ap1_scene" => "acescg",
+            "srgb_rec709_scene" => "srgb_texture",
+            name => name,
+        };
+        COLOR_SPACES.iter().find(|space| space.name == name)
+    }
+}
+
+const fn space(name: &'static str, transfer: fn(f32) -> f32) -> ColorSpace {
+    ColorSpace { name, transfer, primaries: None }
+}
+
+/// The colour spaces that documents may name.
+pub(crate) const COLOR_SPACES: &[ColorSpace] = &[
+    space("lin_rec709", |x| x),
+    space("raw", |x| x),
+    space("none", |x| x),
+    space("srgb_texture", linear_from_srgb),
+    space("g18_rec709", |x| x.max(0.0).powf(1.8)),
+    space("g22_rec709", |x| x.max(0.0).powf(2.2)),
+    space("rec709_display", |x| x.max(0.0).powf(2.4)),
+    ColorSpace { name: "acescg", transfer: |x| x, primaries: Some(REC709_FROM_AP1) },
+    ColorSpace { name: "g22_ap1", transfer: |x| x.max(0.0).powf(2.2), primaries: Some(REC709_FROM_AP1) },
+    ColorSpace { name: "lin_adobergb", transfer: |x| x, primaries: Some(REC709_FROM_ADOBE) },
+    ColorSpace { name: "adobergb", transfer: linear_from_adobe, primaries: Some(REC709_FROM_ADOBE) },
+    ColorSpace { name: "lin_displayp3", transfer: |x| x, primaries: Some(REC709_FROM_P3) },
+    ColorSpace { name: "srgb_displayp3", transfer: linear_from_srgb, primaries: Some(REC709_FROM_P3) },
+];
+
+/// From the primaries' chromaticities, with the Bradford adaptation from ACES white to D65.
+const REC709_FROM_AP1: [[f32; 3]; 3] = [
+    [1.705_051, -0.621_792, -0.083_259],
+    [-0.130_256, 1.140_805, -0.010_548],
+    [-0.024_003, -0.128_969, 1.152_972],
+];
+/// From the primaries' chromaticities; both have the white D65.
+const REC709_FROM_ADOBE: [[f32; 3]; 3] =
+    [[1.398_36, -0.398_36, 0.0], [0.0, 1.0, 0.0], [0.0, -0.042_93, 1.042_93]];
+/// From the primaries' chromaticities; both have the white D65.
+const REC709_FROM_P3: [[f32; 3]; 3] =
+    [[1.224_94, -0.224_940, 0.0], [-0.042_057, 1.042_057, 0.0], [-0.019_638, -0.078_636, 1.098_274]];
+
+/// Adobe RGB (1998), section 4.3.1.2: an exponent of 2 + 51/256.
+fn linear_from_adobe(x: f32) -> f32 {
+    x.max(0.0).powf(2.0 + 51.0 / 256.0)
+}
 
 /// IEC 61966-2-1, the sRGB transfer function.
-fn linear_from_srgb(x: f32) -> f32 {
+pub(crate) fn linear_from_srgb(x: f32) -> f32 {
     if x <= 0.04045 { x / 12.92 } else { ((x + 0.055) / 1.055).powf(2.4) }
 }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use roxmltree::{Node, ParsingOptions};
 
 use crate::{
-    element::{Attribute, Element, Span},
+    element::{Attribute, Element, Inherited, Span},
     error::{Error, one_line},
     source::Source,
 };
@@ -31,7 +31,7 @@ pub(crate) fn parse(source: &Arc<Source>) -> Result<Element, Error> {
         ParsingOptions { allow_dtd: false, nodes_limit: MAX_XML_NODES, ..ParsingOptions::default() };
     let xml = roxmltree::Document::parse_with_options(source.text(), options)
         .map_err(|cause| xml_error(source, &cause))?;
-    convert(xml.root_element(), source, None, 1)
+    convert(xml.root_element(), source, &Inherited::default(), 1)
 }
 
 /// Refuses what the XML parser needs quadratic time for.
@@ -85,7 +85,7 @@ fn xml_error(source: &Source, cause: &roxmltree::Error) -> Error {
 fn convert(
     node: Node<'_, '_>,
     source: &Arc<Source>,
-    colorspace: Option<&Arc<str>>,
+    inherited: &Inherited,
     depth: usize,
 ) -> Result<Element, Error> {
     let span = Span::new(source, node.range().start);
@@ -103,15 +103,28 @@ fn convert(
             limit: MAX_ATTRIBUTE,
         });
     }
-    let own_colorspace = node.attribute("colorspace").filter(|name| !name.is_empty()).map(Arc::from);
-    let colorspace = own_colorspace.as_ref().or(colorspace);
+    let inherited = inherit(node, inherited);
     let children = node
         .children()
         .filter(|child| is_materialx(*child))
-        .map(|child| convert(child, source, colorspace, depth + 1))
+        .map(|child| convert(child, source, &inherited, depth + 1))
         .collect::<Result<_, _>>()?;
     let attributes = node.attributes().map(|a| Attribute::new(a.name(), a.value())).collect();
-    Ok(Element::new(tag(node), attributes, children, span, colorspace.cloned()))
+    Ok(Element::new(tag(node), attributes, children, span, inherited))
+}
+
+/// What a node has of its own, and what it has of those around it.
+fn inherit(node: Node<'_, '_>, outer: &Inherited) -> Inherited {
+    let own = |name| node.attribute(name).filter(|value| !value.is_empty());
+    let prefix = |own: &str| match &outer.fileprefix {
+        // Bounded: a prefix is an attribute, and nesting is limited.
+        Some(outer) => Arc::from(format!("{outer}{own}")),
+        None => Arc::from(own),
+    };
+    Inherited {
+        colorspace: own("colorspace").map(Arc::from).or_else(|| outer.colorspace.clone()),
+        fileprefix: own("fileprefix").map(prefix).or_else(|| outer.fileprefix.clone()),
+    }
 }
 
 /// Elements in other tools' namespaces are theirs to read; an include is ours to see.

@@ -291,3 +291,92 @@ proptest! {
         check(single("oren_nayar_diffuse_bsdf", &input("color", "color3")).as_bytes())?;
     }
 }
+
+#[test]
+fn interfaces_that_feed_themselves_are_refused() {
+    let own = r#"<nodegraph name="g"><input name="x" type="BSDF" nodegraph="g" output="o" />
+        <output name="o" type="BSDF" interfacename="x" /></nodegraph>
+        <add name="bsdf" type="BSDF"><input name="in1" type="BSDF" nodegraph="g" output="o" /></add>"#;
+    let message = read(document(own).as_bytes()).unwrap_err().to_string();
+    assert!(message.contains("feeds itself"), "{message}");
+    let inside = r#"<nodegraph name="g"><add name="a" type="color3"><input name="in1" type="color3" nodegraph="g" output="o" /></add>
+        <output name="o" type="color3" nodename="a" /></nodegraph>
+        <oren_nayar_diffuse_bsdf name="bsdf" type="BSDF"><input name="color" type="color3" nodegraph="g" output="o" /></oren_nayar_diffuse_bsdf>"#;
+    assert!(read(document(inside).as_bytes()).is_err());
+}
+
+#[test]
+fn definitions_that_use_each_other_twice_are_bounded() {
+    let level = |i: usize| {
+        format!(
+            r#"<nodedef name="ND_l{i}" node="l{i}"><input name="x" type="color3" value="1, 1, 1" /><output name="out" type="color3" /></nodedef>
+            <nodegraph name="NG_l{i}" nodedef="ND_l{i}">
+              <l{next} name="a" type="color3"><input name="x" type="color3" interfacename="x" /></l{next}>
+              <l{next} name="b" type="color3"><input name="x" type="color3" interfacename="x" /></l{next}>
+              <add name="s" type="color3"><input name="in1" type="color3" nodename="a" /><input name="in2" type="color3" nodename="b" /></add>
+              <output name="out" type="color3" nodename="s" /></nodegraph>"#,
+            next = i + 1
+        )
+    };
+    let text = document(&format!(
+        r#"{}<oren_nayar_diffuse_bsdf name="bsdf" type="BSDF"><input name="color" type="color3" nodename="top" /></oren_nayar_diffuse_bsdf>
+        <l0 name="top" type="color3" />"#,
+        repeated(40, level)
+    ));
+    let message = read(text.as_bytes()).unwrap_err().to_string();
+    assert!(message.contains("more than"), "{message}");
+}
+
+#[test]
+fn long_chains_of_patterns_are_refused() {
+    let nodes = repeated(20_000, |i| {
+        format!(
+            "<sin name=\"n{i}\" type=\"float\"><input name=\"in\" type=\"float\" nodename=\"n{}\"/></sin>\n",
+            i + 1
+        )
+    });
+    let text = document(&format!(
+        "{nodes}<oren_nayar_diffuse_bsdf name=\"bsdf\" type=\"BSDF\"><input name=\"roughness\" type=\"float\" nodename=\"n0\"/></oren_nayar_diffuse_bsdf>"
+    ));
+    assert_refused(&text, "more than 200 pattern nodes in a chain; simplify or split the document");
+    let problems = catseye_materialx::check_bytes(
+        text.as_bytes(),
+        "hostile.mtlx",
+        &catseye_materialx::Library::default(),
+    );
+    assert_eq!(problems.len(), 1, "the last node dangles: {problems:?}");
+}
+
+#[test]
+fn pictures_of_absurd_size_are_refused_without_being_decoded() {
+    let folder = tempfile::tempdir().unwrap();
+    // The head of a PNG that claims 2^31 - 1 pixels a side, and of one of 65,536 a side.
+    for side in [u32::MAX >> 1, 1 << 16] {
+        let mut head = vec![0x89, b'P', b'N', b'G', 13, 10, 26, 10, 0, 0, 0, 13];
+        let chunk: Vec<u8> =
+            [b"IHDR".as_slice(), &side.to_be_bytes(), &side.to_be_bytes(), &[8, 6, 0, 0, 0]].concat();
+        head.extend_from_slice(&chunk);
+        head.extend_from_slice(&crc(&chunk).to_be_bytes());
+        head.extend_from_slice(&[0, 0, 0, 0]);
+        head.extend_from_slice(b"IDAT");
+        head.extend_from_slice(&crc(b"IDAT").to_be_bytes());
+        std::fs::write(folder.path().join("huge.png"), head).unwrap();
+        let nodes = r#"<oren_nayar_diffuse_bsdf name="bsdf" type="BSDF"><input name="color" type="color3" nodename="p" /></oren_nayar_diffuse_bsdf>
+            <image name="p" type="color3"><input name="file" type="filename" value="huge.png" /></image>"#;
+        let path = folder.path().join("m.mtlx");
+        std::fs::write(&path, document(nodes)).unwrap();
+        let start = Instant::now();
+        let message =
+            Document::load(&path).and_then(|document| document.materials()).unwrap_err().to_string();
+        assert!(message.contains("the picture \"huge.png\" can't be read"), "{message}");
+        assert!(start.elapsed() < MOST_TIME);
+        let problems = catseye_materialx::check(&path, &catseye_materialx::Library::default());
+        assert!(problems.iter().any(|problem| problem.to_string().contains("huge.png")), "{problems:?}");
+    }
+}
+
+/// CRC-32 as PNG has it.
+fn crc(bytes: &[u8]) -> u32 {
+    let step = |crc: u32, _| if crc & 1 == 1 { crc >> 1 ^ 0xedb8_8320 } else { crc >> 1 };
+    !bytes.iter().fold(u32::MAX, |crc, byte| (0..8).fold(crc ^ u32::from(*byte), step))
+}

@@ -28,7 +28,7 @@ fn diffuse(color: [f32; 3], roughness: f32) -> Closure {
 
 fn dielectric(ior: f32, roughness: f32) -> Closure {
     let (weight, tint, scatter_mode) = (1.0, [1.0; 3], ScatterMode::Reflect);
-    Closure::Dielectric { weight, tint, ior, roughness: [roughness; 2], scatter_mode }
+    Closure::Dielectric { weight, tint, ior, roughness: [roughness; 2], retroreflective: false, scatter_mode }
 }
 
 fn proposal_example(roughness: f32) -> Closure {
@@ -71,7 +71,7 @@ fn every_document_of_the_materials_folder() {
     for (name, bsdf) in expected.clone() {
         let path = materials_folder().join(format!("{name}.mtlx"));
         let material = Document::load(path).and_then(|document| document.material(None)).unwrap();
-        assert_eq!(material, Material { name: name.into(), bsdf, opacity: 1.0 });
+        assert_eq!(material, Material { name: name.into(), bsdf, ..Material::default() });
     }
     let on_disk = std::fs::read_dir(materials_folder()).unwrap().map(|entry| entry.unwrap().path());
     let on_disk = on_disk.filter(|path| path.extension().is_some_and(|extension| extension == "mtlx"));
@@ -98,6 +98,20 @@ fn defaults_are_those_of_the_node_definitions() {
         ),
         ("dielectric_bsdf", dielectric(1.5, 0.05)),
         (
+            "conductor_bsdf",
+            Closure::Conductor {
+                weight: 1.0,
+                ior: [0.183, 0.421, 1.373],
+                extinction: [3.424, 2.346, 1.770],
+                roughness: [0.05; 2],
+                retroreflective: false,
+            },
+        ),
+        ("generalized_schlick_bsdf", schlick(false, ScatterMode::Reflect)),
+        ("burley_diffuse_bsdf", Closure::BurleyDiffuse { weight: 1.0, color: [0.18; 3], roughness: 0.0 }),
+        ("translucent_bsdf", Closure::Translucent { weight: 1.0, color: [1.0; 3] }),
+        ("sheen_bsdf", Closure::Sheen { weight: 1.0, color: [1.0; 3], roughness: 0.3 }),
+        (
             "mix",
             Closure::Mix {
                 foreground: Box::new(Closure::None),
@@ -112,6 +126,44 @@ fn defaults_are_those_of_the_node_definitions() {
     for (category, expected) in cases {
         assert_eq!(parse(&single(category, "")).bsdf, expected, "{category}");
     }
+}
+
+fn schlick(retroreflective: bool, scatter_mode: ScatterMode) -> Closure {
+    Closure::GeneralizedSchlick {
+        weight: 1.0,
+        color0: [1.0; 3],
+        color82: [1.0; 3],
+        color90: [1.0; 3],
+        exponent: 5.0,
+        roughness: [0.05; 2],
+        retroreflective,
+        scatter_mode,
+    }
+}
+
+#[test]
+fn three_microfacet_lobes_can_be_retroreflective() {
+    let input = r#"<input name="retroreflective" type="boolean" value="true" />"#;
+    for category in ["dielectric_bsdf", "conductor_bsdf", "generalized_schlick_bsdf"] {
+        let sent_back = match parse(&single(category, input)).bsdf {
+            Closure::Dielectric { retroreflective, .. }
+            | Closure::Conductor { retroreflective, .. }
+            | Closure::GeneralizedSchlick { retroreflective, .. } => retroreflective,
+            other => panic!("{other:?}"),
+        };
+        assert!(sent_back, "{category}");
+    }
+}
+
+#[test]
+fn a_normal_of_its_own_orients_a_lobe() {
+    let input = r#"<input name="normal" type="vector3" value="0, 2, 0" />"#;
+    let expected = Closure::Oriented {
+        closure: Box::new(Closure::Translucent { weight: 1.0, color: [1.0; 3] }),
+        normal: Some([0.0, 1.0, 0.0]),
+        tangent: None,
+    };
+    assert_eq!(parse(&single("translucent_bsdf", input)).bsdf, expected);
 }
 
 #[test]
@@ -169,6 +221,7 @@ fn every_input_of_dielectric_bsdf() {
             tint: [1.0, 0.5, 0.0],
             ior: 1.33,
             roughness: [0.1, 0.4],
+            retroreflective: false,
             scatter_mode,
         };
         assert_eq!(parse(&single("dielectric_bsdf", &inputs)).bsdf, expected);
@@ -193,7 +246,7 @@ fn colours_are_converted_from_the_nearest_colour_space() {
         ("srgb_texture", "", [0.214_041_14, 0.003_095_975, 1.0]),
         ("srgb_texture", "raw", [0.5, 0.04, 1.0]),
         ("none", "srgb_texture", [0.214_041_14, 0.003_095_975, 1.0]),
-        ("acescg", "none", [0.5, 0.04, 1.0]),
+        ("unheard_of", "none", [0.5, 0.04, 1.0]),
     ];
     for (of_document, of_input, color) in cases {
         let input =
@@ -277,7 +330,7 @@ fn materials_come_in_order_and_by_name() {
     let document = Document::parse(&document(other), "test.mtlx").unwrap();
     let names: Vec<_> = document.materials().unwrap().into_iter().map(|material| material.name).collect();
     assert_eq!(names, ["a", "m"]);
-    let expected = Material { name: "a".into(), bsdf: Closure::None, opacity: 0.5 };
+    let expected = Material { name: "a".into(), opacity: 0.5, ..Material::default() };
     assert_eq!(document.material(Some("a")).unwrap(), expected);
     assert_eq!(document.material(Some("m")).unwrap().bsdf, dielectric(1.5, 0.05));
 }

@@ -50,9 +50,17 @@ impl Path<'_> {
         if self.meet_lights(hit.as_ref()) {
             return false;
         }
-        let Some(hit) = hit.filter(|_| self.depth < max_depth) else { return false };
+        let Some(hit) = hit else { return false };
+        let surface = self.scene.surface(&hit, self.ray.direction);
+        if surface.emission != Vec3::ZERO {
+            // No light sampling looks for surfaces that glow: paths find them.
+            self.add(self.throughput * surface.emission, self.depth.saturating_sub(1));
+        }
+        if self.depth >= max_depth {
+            return false;
+        }
         self.throughput *= hit.color;
-        let shading = self.scene.bsdf(&hit).at(hit.frame, -self.ray.direction, hit.inside);
+        let shading = surface.bsdf().at(hit.frame, -self.ray.direction, hit.inside);
         self.sample_lights(&hit, &shading, sampler);
         self.depth += 1;
         self.scatter(&hit, &shading, sampler)
@@ -62,7 +70,7 @@ impl Path<'_> {
     fn next_hit(&mut self, sampler: &mut Sampler) -> Option<Hit> {
         for _ in 0..MAX_PASSED {
             let hit = self.scene.intersect(&self.ray)?;
-            let opacity = self.scene.opacity(&hit);
+            let opacity = self.scene.opacity(&hit, self.ray.direction);
             if opacity >= 1.0 || sampler.next_4d()[0] < opacity {
                 return Some(hit);
             }

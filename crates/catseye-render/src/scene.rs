@@ -1,9 +1,13 @@
 //! Everything that a picture is taken of.
 
-use catseye_materialx::Material;
+use std::cell::RefCell;
+
+use catseye::Model;
+use catseye_materialx::{Closure, Material, Patterns};
+use glam::{Vec2, Vec3};
 
 use crate::accel::{Accel, Primitive};
-use crate::surface::{Attributes, Hit};
+use crate::surface::{Attributes, Hit, shading_point, texcoords};
 use crate::{Bsdf, Camera, Error, Light, Mesh, Ray, Sphere, ToneMap};
 
 /// A scene, ready to be rendered. Made by a [`SceneBuilder`].
@@ -14,6 +18,8 @@ pub struct Scene {
     indirect_limit: f32,
     accel: Accel,
     attributes: Vec<Attributes>,
+    /// Of the corners of each primitive; none where no material asks.
+    texcoords: Vec<[Vec2; 3]>,
     surfaces: Vec<Surface>,
     lights: Vec<Box<dyn Light>>,
     opaque: bool,
@@ -24,6 +30,41 @@ pub struct Scene {
 struct Surface {
     bsdf: Bsdf,
     opacity: f32,
+    emission: Vec3,
+    /// What it is at each point, if it is not the same everywhere.
+    patterns: Option<Varying>,
+}
+
+/// A surface that is not the same everywhere.
+#[derive(Debug)]
+struct Varying {
+    patterns: Patterns,
+    model: Model,
+    /// Factor on its BSDF.
+    tint: Vec3,
+}
+
+/// A surface at a point.
+#[derive(Debug)]
+pub(crate) struct SurfaceAt<'a> {
+    bsdf: BsdfAt<'a>,
+    /// What it emits towards the viewer.
+    pub(crate) emission: Vec3,
+}
+
+#[derive(Debug)]
+enum BsdfAt<'a> {
+    Everywhere(&'a Bsdf),
+    Here(Bsdf),
+}
+
+impl SurfaceAt<'_> {
+    pub(crate) fn bsdf(&self) -> &Bsdf {
+        match &self.bsdf {
+            BsdfAt::Everywhere(bsdf) => bsdf,
+            BsdfAt::Here(bsdf) => bsdf,
+        }
+    }
 }
 
 /// A material of a scene under construction.
@@ -64,7 +105,11 @@ impl SceneBuilder {
 
     /// Adds a material that lets the share `1 - opacity` of light pass straight through.
     pub fn translucent_material(&mut self, bsdf: Bsdf, opacity: f32) -> MaterialId {
-        self.surfaces.push(Surface { bsdf, opacity: opacity.clamp(0.0, 1.0) });
+        self.surface(Surface { bsdf, opacity: opacity.clamp(0.0, 1.0), emission: Vec3::ZERO, patterns: None })
+    }
+
+    fn surface(&mut self, surface: Surface) -> MaterialId {
+        self.surfaces.push(surface);
         MaterialId(self.surfaces.len() as u32 - 1)
     }
 
@@ -72,8 +117,25 @@ impl SceneBuilder {
     ///
     /// # Errors
     /// As [`Bsdf::with_model`].
-    pub fn materialx(&mut self, material: &Material, model: catseye::Model) -> Result<MaterialId, Error> {
-        Ok(self.translucent_material(Bsdf::with_model(&material.bsdf, model)?, material.opacity))
+    pub fn materialx(&mut self, material: &Material, model: Model) -> Result<MaterialId, Error> {
+        self.tinted_materialx(material, model, Vec3::ONE)
+    }
+
+    /// As [`SceneBuilder::materialx`], what is scattered multiplied by a colour.
+    pub(crate) fn tinted_materialx(
+        &mut self,
+        material: &Material,
+        model: Model,
+        tint: Vec3,
+    ) -> Result<MaterialId, Error> {
+        let closure = tinted(material.bsdf.clone(), tint);
+        let patterns = material.patterns.clone();
+        Ok(self.surface(Surface {
+            bsdf: Bsdf::with_model(&closure, model)?,
+            opacity: material.opacity.clamp(0.0, 1.0),
+            emission: Vec3::from(material.emission),
+            patterns: patterns.map(|patterns| Varying { patterns, model, tint }),
+        }))
     }
 
     /// Adds a mesh.
@@ -119,6 +181,8 @@ impl SceneBuilder {
     pub fn build(self) -> Result<Scene, Error> {
         let mut primitives = Vec::new();
         let mut attributes = Vec::new();
+        let mut corners_texcoords = Vec::new();
+        let varies = self.surfaces.iter().any(|surface| surface.patterns.is_some());
         for (number, (mesh, material)) in self.meshes.iter().enumerate() {
             if let Some(problem) = mesh.problem() {
                 return Err(Error::Mesh { mesh: number, problem });
@@ -129,12 +193,14 @@ impl SceneBuilder {
                 if (corners[1] - corners[0]).cross(corners[2] - corners[0]).try_normalize().is_some() {
                     primitives.push(Primitive::Triangle(corners));
                     attributes.push(Attributes::of_triangle(mesh, triangle, material.0));
+                    corners_texcoords.push(texcoords(mesh, triangle));
                 }
             }
         }
         for (sphere, material) in &self.spheres {
             primitives.push(Primitive::Sphere(*sphere));
             attributes.push(Attributes::of_sphere(material.0));
+            corners_texcoords.push([Vec2::ZERO; 3]);
         }
         let (accel, order) = Accel::new(&primitives);
         Ok(Scene {
@@ -143,11 +209,34 @@ impl SceneBuilder {
             indirect_limit: self.indirect_limit,
             accel,
             attributes: order.iter().map(|&i| attributes[i as usize]).collect(),
-            opaque: self.surfaces.iter().all(|s| s.opacity >= 1.0),
+            texcoords: match varies {
+                true => order.iter().map(|&i| corners_texcoords[i as usize]).collect(),
+                false => Vec::new(),
+            },
+            opaque: self.surfaces.iter().all(Surface::is_opaque),
             surfaces: self.surfaces,
             lights: self.lights,
         })
     }
+}
+
+/// A closure times a colour.
+fn tinted(closure: Closure, tint: Vec3) -> Closure {
+    if tint == Vec3::ONE {
+        return closure;
+    }
+    Closure::Multiply { closure: Box::new(closure), factor: tint.to_array() }
+}
+
+impl Surface {
+    fn is_opaque(&self) -> bool {
+        self.opacity >= 1.0 && self.patterns.as_ref().is_none_or(|varying| !varying.patterns.has_opacity())
+    }
+}
+
+thread_local! {
+    /// Room for the registers of patterns.
+    static REGISTERS: RefCell<Vec<[f32; 4]>> = const { RefCell::new(Vec::new()) };
 }
 
 impl Scene {
@@ -176,17 +265,39 @@ impl Scene {
     /// The surface point that the ray meets first.
     pub(crate) fn intersect(&self, ray: &Ray) -> Option<Hit> {
         let (index, t) = self.accel.nearest(ray)?;
-        Some(Hit::new(ray, t, self.accel.primitive(index), &self.attributes[index]))
+        let hit = Hit::new(ray, t, self.accel.primitive(index), &self.attributes[index]);
+        Some(Hit { primitive: index as u32, ..hit })
     }
 
-    /// The BSDF of a surface point.
-    pub(crate) fn bsdf(&self, hit: &Hit) -> &Bsdf {
-        &self.surfaces[hit.material as usize].bsdf
+    /// The surface at a point that a ray of this direction meets.
+    pub(crate) fn surface(&self, hit: &Hit, direction: Vec3) -> SurfaceAt<'_> {
+        let surface = &self.surfaces[hit.material as usize];
+        if let Some(varying) = &surface.patterns {
+            let here = self.evaluate(&varying.patterns, hit, direction);
+            let emission = Vec3::from(here.emission);
+            // A point that can't be shaded is shaded like the default point, which can.
+            if let Ok(bsdf) = Bsdf::at_point(&tinted(here.bsdf, varying.tint), varying.model) {
+                return SurfaceAt { bsdf: BsdfAt::Here(bsdf), emission };
+            }
+        }
+        SurfaceAt { bsdf: BsdfAt::Everywhere(&surface.bsdf), emission: surface.emission }
     }
 
-    /// The opacity of a surface point.
-    pub(crate) fn opacity(&self, hit: &Hit) -> f32 {
-        self.surfaces[hit.material as usize].opacity
+    fn evaluate(&self, patterns: &Patterns, hit: &Hit, direction: Vec3) -> catseye_materialx::Surface {
+        let index = hit.primitive as usize;
+        let point = shading_point(hit, direction, self.accel.primitive(index), self.texcoords[index]);
+        REGISTERS.with_borrow_mut(|registers| patterns.at_with(&point, registers))
+    }
+
+    /// The opacity of a surface point that a ray of this direction meets.
+    pub(crate) fn opacity(&self, hit: &Hit, direction: Vec3) -> f32 {
+        let surface = &self.surfaces[hit.material as usize];
+        match &surface.patterns {
+            Some(varying) if varying.patterns.has_opacity() => {
+                self.evaluate(&varying.patterns, hit, direction).opacity
+            }
+            _ => surface.opacity,
+        }
     }
 
     /// The share of light that passes along the whole ray.
@@ -196,7 +307,7 @@ impl Scene {
         }
         let (mut ray, mut passed) = (*ray, 1.0);
         while let Some(hit) = self.intersect(&ray) {
-            passed *= 1.0 - self.opacity(&hit);
+            passed *= 1.0 - self.opacity(&hit, ray.direction);
             if passed <= 0.0 {
                 return 0.0;
             }

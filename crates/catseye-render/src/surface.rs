@@ -1,6 +1,9 @@
 //! A point on a surface, and what there is to know of it.
 
-use glam::Vec3;
+use std::f32::consts::{PI, TAU};
+
+use catseye_materialx::ShadingPoint;
+use glam::{Vec2, Vec3};
 
 use crate::accel::Primitive;
 use crate::triangle::barycentric;
@@ -34,6 +37,53 @@ impl Attributes {
     }
 }
 
+/// Texture coordinates of a triangle's corners; zeros where there are none.
+pub(crate) fn texcoords(mesh: &Mesh, triangle: [u32; 3]) -> [Vec2; 3] {
+    if mesh.uvs.is_empty() { [Vec2::ZERO; 3] } else { triangle.map(|i| mesh.uvs[i as usize]) }
+}
+
+/// The point as patterns see it.
+pub(crate) fn shading_point(
+    hit: &Hit,
+    view: Vec3,
+    primitive: &Primitive,
+    texcoords: [Vec2; 3],
+) -> ShadingPoint {
+    let (position_object, texcoord, bitangent) = match primitive {
+        Primitive::Triangle(corners) => {
+            let [u, v, w] = barycentric(corners, hit.position);
+            let texcoord = texcoords[0] * u + texcoords[1] * v + texcoords[2] * w;
+            (hit.position, texcoord, bitangent(corners, texcoords))
+        }
+        Primitive::Sphere(sphere) => {
+            let n = (hit.position - sphere.centre) / sphere.radius;
+            let longitude = n.x.atan2(n.z) / TAU + 0.5;
+            let latitude = n.y.clamp(-1.0, 1.0).asin() / PI + 0.5;
+            (hit.position - sphere.centre, Vec2::new(longitude, latitude), Vec3::ZERO)
+        }
+    };
+    let [tangent, normal] = [hit.frame.x, hit.frame.z];
+    // The frame's y is the bitangent of a right-handed surface seen from outside.
+    let outside = if hit.inside { -hit.frame.y } else { hit.frame.y };
+    let bitangent = if bitangent.dot(outside) < 0.0 { -outside } else { outside };
+    ShadingPoint {
+        position: hit.position.to_array(),
+        position_object: position_object.to_array(),
+        normal: normal.to_array(),
+        tangent: tangent.to_array(),
+        bitangent: bitangent.to_array(),
+        texcoord: texcoord.to_array(),
+        view: view.to_array(),
+    }
+}
+
+/// The derivative of the position by v, up to a positive factor.
+fn bitangent([p0, p1, p2]: &[Vec3; 3], [t0, t1, t2]: [Vec2; 3]) -> Vec3 {
+    let (e1, e2, f1, f2) = (*p1 - *p0, *p2 - *p0, t1 - t0, t2 - t0);
+    let orientation = f1.perp_dot(f2).signum();
+    orientation * (e2 * f1.x - e1 * f2.x)
+}
+
 /// The derivative of the position by u, from the linear map between texture and space.
 fn tangent(mesh: &Mesh, triangle: [u32; 3]) -> Vec3 {
     if mesh.uvs.is_empty() {
@@ -61,6 +111,8 @@ pub(crate) struct Hit {
     /// Factor on the BSDF.
     pub(crate) color: Vec3,
     pub(crate) material: u32,
+    /// The primitive's number, for what few materials ask.
+    pub(crate) primitive: u32,
 }
 
 impl Hit {
@@ -90,6 +142,7 @@ impl Hit {
             facing = normal * side;
         }
         let frame = Frame::from_normal_tangent(facing, tangent);
-        Self { t, position, normal: normal * side, frame, inside, color, material: attributes.material }
+        let (material, primitive) = (attributes.material, 0);
+        Self { t, position, normal: normal * side, frame, inside, color, material, primitive }
     }
 }

@@ -12,7 +12,7 @@ const SIZE: [usize; 2] = [96, 54];
 const SIGNS: [[usize; 2]; 2] = [[15, 12], [80, 12]];
 
 fn material(bsdf: Closure) -> Material {
-    Material { name: "test".to_owned(), bsdf, opacity: 1.0 }
+    Material { name: "test".to_owned(), bsdf, ..Material::default() }
 }
 
 fn luminance(image: &Image, [x, y]: [usize; 2]) -> f32 {
@@ -51,7 +51,9 @@ fn the_preview_shows_every_material_in_range() {
         let image = picture(&scene, SIZE, 16, 6);
         // The middle of the sphere, after the tone map.
         let shown = scene.tone_map().apply(image.pixel(26, 24)).iter().sum::<f32>() / 3.0;
-        assert!((0.02..0.95).contains(&shown), "{name}: {shown}");
+        // Fibres alone shine at the rim, not in the middle.
+        let least = if name == "sheen" { 0.005 } else { 0.02 };
+        assert!((least..0.95).contains(&shown), "{name}: {shown}");
     }
 }
 

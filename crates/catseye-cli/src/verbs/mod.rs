@@ -1,8 +1,10 @@
 //! One file for each verb.
 
 pub(crate) mod albedo;
+pub(crate) mod check;
 pub(crate) mod eval;
 pub(crate) mod furnace;
+pub(crate) mod materialx;
 pub(crate) mod plot;
 pub(crate) mod render;
 pub(crate) mod sample;

@@ -11,6 +11,7 @@ use serde_json::json;
 
 use crate::args::ModelArg;
 use crate::failure::Usage;
+use crate::library::LibraryArgs;
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::{help, report};
@@ -35,6 +36,8 @@ pub(crate) struct Args {
     /// Name of the surface material, where the document has several
     #[arg(long, value_name = "NAME", requires = "document")]
     material: Option<String>,
+    #[command(flatten)]
+    library: LibraryArgs,
     /// Scene to put it in [default: preview with a material, night without]
     #[arg(long, value_enum)]
     scene: Option<SceneArg>,
@@ -118,7 +121,12 @@ impl Args {
 
     fn load_material(&self) -> anyhow::Result<Option<Material>> {
         let Some(path) = &self.document else { return Ok(None) };
-        Ok(Some(Document::load(path)?.material(self.material.as_deref())?))
+        let document = Document::load_with(path, &self.library.load()?)?;
+        let material = document.material(self.material.as_deref())?;
+        for warning in document.warnings().iter().chain(&material.warnings) {
+            eprintln!("catseye: warning: {warning}");
+        }
+        Ok(Some(material))
     }
 
     /// Columns and rows that are rendered for one of a PNG and averaged behind the tone curve: an edge between sheeting

@@ -2,8 +2,19 @@
 
 use crate::run::{Bench, alike, output};
 
-const VERBS: [&str; 8] =
-    ["render", "furnace", "eval", "sample", "albedo", "plot", "plot lobe", "plot albedo"];
+const VERBS: [&str; 11] = [
+    "render",
+    "furnace",
+    "eval",
+    "sample",
+    "albedo",
+    "plot",
+    "plot lobe",
+    "plot albedo",
+    "materialx",
+    "materialx export",
+    "materialx check",
+];
 
 #[test]
 fn every_verb_has_help_with_an_example() {

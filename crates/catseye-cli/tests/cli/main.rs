@@ -5,6 +5,8 @@ mod bad_input;
 mod csv_contract;
 mod furnace_table;
 mod help;
+mod materialx_check;
+mod materialx_export;
 mod plots;
 mod readme;
 mod render_files;

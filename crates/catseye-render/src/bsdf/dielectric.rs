@@ -1,5 +1,8 @@
 //! Reflection and refraction at a rough dielectric interface: `dielectric_bsdf`.
 
+use std::collections::HashMap;
+use std::sync::{Arc, LazyLock, PoisonError, RwLock};
+
 use catseye_materialx::ScatterMode;
 use glam::Vec3;
 
@@ -25,7 +28,7 @@ pub(crate) struct Dielectric {
     transmits: bool,
     smooth: bool,
     /// What happens to light from outside and from inside.
-    shares: [Shares; 2],
+    shares: Arc<[Shares; 2]>,
 }
 
 /// Shares of the energy as functions of the direction, without tint. Rough facets hide some of either.
@@ -40,18 +43,27 @@ impl Dielectric {
         let ior = if ior.is_finite() && ior > 0.01 { ior } else { 1.0 };
         let smooth = alpha[0].max(alpha[1]) < SMOOTH_ALPHA || (ior - 1.0).abs() < EQUAL_INDEX;
         let ggx = Ggx { alpha: alpha.map(|a| a.clamp(SMOOTH_ALPHA, 1.0)) };
-        let isotropic = smooth || alpha[0] == alpha[1];
-        let shares = |eta: f32| {
-            let table = |share: fn(Ggx, Vec3, f32) -> f32, smooth_share: fn(f32) -> f32| {
-                AlbedoTable::new(isotropic, |wo| {
-                    if smooth { smooth_share(fresnel_dielectric(wo.z, eta)) } else { share(ggx, wo, eta) }
-                })
-            };
-            Shares {
-                reflected: table(rough_reflectance, |fresnel| fresnel),
-                transmitted: table(rough_transmittance, |fresnel| 1.0 - fresnel),
-            }
-        };
+        let shares = Arc::new(shares(ior, ggx, smooth));
+        Self::with_shares(tint, ior, ggx, mode, smooth, shares)
+    }
+
+    /// As [`Self::new`], with shares of energy from a store: quick, and a little off. For surfaces that vary.
+    pub(crate) fn varying(tint: Vec3, ior: f32, alpha: [f32; 2], mode: ScatterMode) -> Self {
+        let ior = if ior.is_finite() && ior > 0.01 { ior } else { 1.0 };
+        let smooth = alpha[0].max(alpha[1]) < SMOOTH_ALPHA || (ior - 1.0).abs() < EQUAL_INDEX;
+        let ggx = Ggx { alpha: alpha.map(|a| a.clamp(SMOOTH_ALPHA, 1.0)) };
+        let shares = stored_shares(ior, (ggx.alpha[0] * ggx.alpha[1]).sqrt(), smooth);
+        Self::with_shares(tint, ior, ggx, mode, smooth, shares)
+    }
+
+    fn with_shares(
+        tint: Vec3,
+        ior: f32,
+        ggx: Ggx,
+        mode: ScatterMode,
+        smooth: bool,
+        shares: Arc<[Shares; 2]>,
+    ) -> Self {
         Self {
             tint: tint.clamp(Vec3::ZERO, Vec3::ONE),
             ior,
@@ -59,7 +71,7 @@ impl Dielectric {
             reflects: mode != ScatterMode::Transmit,
             transmits: mode != ScatterMode::Reflect,
             smooth,
-            shares: [shares(ior), shares(1.0 / ior)],
+            shares,
         }
     }
 
@@ -156,6 +168,40 @@ impl Dielectric {
             _ => 0.0,
         }
     }
+}
+
+/// The shares of energy from outside and from inside.
+fn shares(ior: f32, ggx: Ggx, smooth: bool) -> [Shares; 2] {
+    let isotropic = smooth || ggx.alpha[0] == ggx.alpha[1];
+    [ior, 1.0 / ior].map(|eta| {
+        let table = |share: fn(Ggx, Vec3, f32) -> f32, smooth_share: fn(f32) -> f32| {
+            AlbedoTable::new(isotropic, |wo| {
+                if smooth { smooth_share(fresnel_dielectric(wo.z, eta)) } else { share(ggx, wo, eta) }
+            })
+        };
+        Shares {
+            reflected: table(rough_reflectance, |fresnel| fresnel),
+            transmitted: table(rough_transmittance, |fresnel| 1.0 - fresnel),
+        }
+    })
+}
+
+/// [`shares`] of an interface nearby: indices in steps of 1/64 up to 8, roots of alpha in steps of 1/32.
+///
+/// What is found depends on the arguments alone, not on who asked before.
+fn stored_shares(ior: f32, alpha: f32, smooth: bool) -> Arc<[Shares; 2]> {
+    type Store = RwLock<HashMap<(u16, u16, bool), Arc<[Shares; 2]>>>;
+    static STORE: LazyLock<Store> = LazyLock::new(Store::default);
+    let (ior_step, alpha_step) =
+        ((ior.min(8.0) * 64.0).round().max(1.0), (alpha.sqrt() * 32.0).round().max(1.0));
+    let key = (ior_step as u16, alpha_step as u16, smooth);
+    if let Some(known) = STORE.read().unwrap_or_else(PoisonError::into_inner).get(&key) {
+        return Arc::clone(known);
+    }
+    let alpha = (alpha_step / 32.0) * (alpha_step / 32.0);
+    let made = Arc::new(shares(ior_step / 64.0, Ggx { alpha: [alpha; 2] }, smooth));
+    let mut store = STORE.write().unwrap_or_else(PoisonError::into_inner);
+    Arc::clone(store.entry(key).or_insert(made))
 }
 
 /// The mean of F G2/G1 over visible facets.

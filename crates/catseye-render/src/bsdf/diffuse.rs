@@ -1,6 +1,7 @@
 //! Rough diffuse reflection: `oren_nayar_diffuse_bsdf`.
 
 use std::f32::consts::{FRAC_1_PI, PI};
+use std::sync::LazyLock;
 
 use glam::Vec3;
 
@@ -15,9 +16,8 @@ pub(crate) struct OrenNayar {
 
 #[derive(Clone, Debug, PartialEq)]
 enum Form {
-    /// The qualitative model, Oren and Nayar, "Generalization of Lambert's Reflectance Model", SIGGRAPH 1994, Eq. 27,
-    /// and its directional albedo for a white colour.
-    Qualitative { a: f32, b: f32, albedo: AlbedoTable },
+    /// The qualitative model, Oren and Nayar, "Generalization of Lambert's Reflectance Model", SIGGRAPH 1994, Eq. 27.
+    Qualitative { a: f32, b: f32 },
     /// EON: Portsmouth, Kutz and Hill, "EON: A Practical Energy-Preserving Rough Diffuse BRDF", JCGT 14(1), 2025.
     EnergyPreserving { a: f32, roughness: f32 },
 }
@@ -32,13 +32,7 @@ impl OrenNayar {
             let sigma2 = roughness * roughness;
             let a = 1.0 - 0.5 * sigma2 / (sigma2 + 0.33);
             let b = 0.45 * sigma2 / (sigma2 + 0.09);
-            let albedo = AlbedoTable::new(true, |wo| {
-                mean_over_square(|u| {
-                    let wi = cosine_hemisphere(u);
-                    a + b * qualitative_slope(wo, wi)
-                })
-            });
-            Form::Qualitative { a, b, albedo }
+            Form::Qualitative { a, b }
         };
         Self { color: color.clamp(Vec3::ZERO, Vec3::ONE), form }
     }
@@ -49,7 +43,7 @@ impl OrenNayar {
             return Vec3::ZERO;
         }
         match &self.form {
-            Form::Qualitative { a, b, .. } => self.color * (FRAC_1_PI * (a + b * qualitative_slope(wo, wi))),
+            Form::Qualitative { a, b } => self.color * (FRAC_1_PI * (a + b * qualitative_slope(wo, wi))),
             Form::EnergyPreserving { a, roughness } => {
                 let s = wo.dot(wi) - wo.z * wi.z;
                 let s_over_t = if s > 0.0 { s / wo.z.max(wi.z) } else { s };
@@ -72,7 +66,7 @@ impl OrenNayar {
     #[inline]
     pub(crate) fn albedo(&self, wo: Vec3) -> Vec3 {
         match &self.form {
-            Form::Qualitative { albedo, .. } => self.color * albedo.look_up(wo),
+            Form::Qualitative { a, b } => self.color * (a + b * SLOPE_ALBEDO.look_up(wo)),
             Form::EnergyPreserving { a, roughness } => {
                 let single = facet_albedo(*a, *roughness, wo.z);
                 self.color * single + multiple_tint(self.color, *a, *roughness) * (1.0 - single)
@@ -80,6 +74,11 @@ impl OrenNayar {
         }
     }
 }
+
+/// The mean of [`qualitative_slope`], cosine-weighted: the same for all roughnesses.
+static SLOPE_ALBEDO: LazyLock<AlbedoTable> = LazyLock::new(|| {
+    AlbedoTable::new(true, |wo| mean_over_square(|u| qualitative_slope(wo, cosine_hemisphere(u))))
+});
 
 /// The part of the qualitative model that depends on the azimuth between the directions.
 fn qualitative_slope(wo: Vec3, wi: Vec3) -> f32 {

@@ -3,8 +3,11 @@
 use catseye::{AnyLobe, Lobe as _};
 use glam::Vec3;
 
+use super::cloth::Cloth;
 use super::dielectric::Dielectric;
 use super::diffuse::OrenNayar;
+use super::metal::Metal;
+use crate::Frame;
 
 /// A lobe and its share.
 #[derive(Clone, Debug)]
@@ -12,17 +15,20 @@ pub(crate) struct Lobe {
     /// MaterialX's `weight` input, in `[0, 1]`.
     pub(crate) weight: f32,
     pub(crate) kind: LobeKind,
+    /// Whether `wo` is mirrored about the normal first: what would be mirrored is sent back.
+    pub(crate) retroreflective: bool,
+    /// The lobe's own normal and tangent in world space.
+    pub(crate) normal_world: Option<Vec3>,
+    pub(crate) tangent_world: Option<Vec3>,
 }
 
 #[derive(Clone, Debug)]
 pub(crate) enum LobeKind {
-    /// The retro-reflective lobe, and its own tangent in world space if it has one.
-    Retro {
-        lobe: Box<AnyLobe<f32>>,
-        tangent_world: Option<Vec3>,
-    },
+    Retro(Box<AnyLobe<f32>>),
     Diffuse(OrenNayar),
+    Cloth(Cloth),
     Dielectric(Dielectric),
+    Metal(Metal),
 }
 
 /// The directions a lobe is asked about. `wo.z` is positive; `inside` says whether the outside of the surface is on
@@ -44,12 +50,37 @@ pub(crate) struct LobeSample {
 }
 
 impl Lobe {
+    /// A lobe about the surface's normal and tangent.
+    pub(crate) fn new(weight: f32, kind: LobeKind) -> Self {
+        let weight = weight.clamp(0.0, 1.0);
+        Self { weight, kind, retroreflective: false, normal_world: None, tangent_world: None }
+    }
+
+    /// The lobe's own frame; `None` where it is the surface's.
+    #[inline]
+    pub(crate) fn frame(&self, surface: &Frame, wo_world: Vec3) -> Option<Frame> {
+        if self.normal_world.is_none() && self.tangent_world.is_none() {
+            return None;
+        }
+        let normal = self.normal_world.map_or(surface.z, |normal| visible(normal, surface.z, wo_world));
+        Some(Frame::from_normal_tangent(normal, self.tangent_world.unwrap_or(surface.x)))
+    }
+
     /// Whether only `sample` can meet the lobe.
     pub(crate) fn is_dirac(&self) -> bool {
         match &self.kind {
-            LobeKind::Retro { lobe, .. } => lobe.is_dirac(),
-            LobeKind::Diffuse(_) => false,
+            LobeKind::Retro(lobe) => lobe.is_dirac(),
+            LobeKind::Diffuse(_) | LobeKind::Cloth(_) => false,
             LobeKind::Dielectric(lobe) => lobe.is_dirac(),
+            LobeKind::Metal(lobe) => lobe.is_dirac(),
+        }
+    }
+
+    /// The direction that facets see.
+    fn mirrored(&self, out: Outgoing) -> Outgoing {
+        match self.retroreflective {
+            true => Outgoing { wo: Vec3::new(-out.wo.x, -out.wo.y, out.wo.z), ..out },
+            false => out,
         }
     }
 
@@ -57,31 +88,42 @@ impl Lobe {
     #[inline]
     pub(crate) fn eval_pdf(&self, out: Outgoing, wi: Vec3) -> (Vec3, f32) {
         match &self.kind {
-            LobeKind::Retro { lobe, .. } => {
+            LobeKind::Retro(lobe) => {
                 let (f, pdf) = lobe.eval_pdf(to_catseye(out.wo), to_catseye(wi));
                 (Vec3::from(f), pdf)
             }
             LobeKind::Diffuse(lobe) => (lobe.eval(out.wo, wi), lobe.pdf(out.wo, wi)),
-            LobeKind::Dielectric(lobe) => lobe.eval_pdf(out.wo, wi, out.inside),
+            LobeKind::Cloth(lobe) => (lobe.eval(out.wo, wi), lobe.pdf(wi)),
+            LobeKind::Dielectric(lobe) => lobe.eval_pdf(self.mirrored(out).wo, wi, out.inside),
+            LobeKind::Metal(lobe) => lobe.eval_pdf(self.mirrored(out).wo, wi),
         }
     }
 
     /// A direction for three uniform numbers, without the lobe's share.
     #[inline]
     pub(crate) fn sample(&self, out: Outgoing, u: [f32; 3]) -> Option<LobeSample> {
+        let mirrored = self.mirrored(out).wo;
         match &self.kind {
-            LobeKind::Retro { lobe, .. } => {
+            LobeKind::Retro(lobe) => {
                 let sample = lobe.sample(to_catseye(out.wo), u)?;
                 let wi = Vec3::from(<[f32; 3]>::from(sample.wi));
                 let pdf = (!lobe.is_dirac()).then_some(sample.pdf);
                 Some(LobeSample { wi, weight: Vec3::from(sample.weight), pdf })
             }
             LobeKind::Diffuse(lobe) => self.evaluated(out, lobe.sample([u[0], u[1]])),
+            LobeKind::Cloth(lobe) => self.evaluated(out, lobe.sample([u[0], u[1]])),
             LobeKind::Dielectric(lobe) => {
-                let wi = lobe.sample(out.wo, u, out.inside)?;
+                let wi = lobe.sample(mirrored, u, out.inside)?;
                 if lobe.is_dirac() {
-                    let weight = lobe.dirac_weight(out.wo, wi, out.inside);
+                    let weight = lobe.dirac_weight(mirrored, wi, out.inside);
                     return Some(LobeSample { wi, weight, pdf: None });
+                }
+                self.evaluated(out, wi)
+            }
+            LobeKind::Metal(lobe) => {
+                let wi = lobe.sample(mirrored, [u[0], u[1]])?;
+                if lobe.is_dirac() {
+                    return Some(LobeSample { wi, weight: lobe.dirac_weight(mirrored), pdf: None });
                 }
                 self.evaluated(out, wi)
             }
@@ -97,25 +139,39 @@ impl Lobe {
     #[inline]
     pub(crate) fn albedo(&self, out: Outgoing) -> Vec3 {
         match &self.kind {
-            LobeKind::Retro { lobe, .. } => Vec3::from(lobe.albedo(to_catseye(out.wo))),
+            LobeKind::Retro(lobe) => Vec3::from(lobe.albedo(to_catseye(out.wo))),
             LobeKind::Diffuse(lobe) => lobe.albedo(out.wo),
+            LobeKind::Cloth(lobe) => lobe.albedo(out.wo),
             LobeKind::Dielectric(lobe) => lobe.albedo(out.wo, out.inside),
+            LobeKind::Metal(lobe) => lobe.albedo(out.wo),
         }
     }
 
     /// The share of energy that goes on to what `layer` puts below, the lobe's share included.
     ///
-    /// Diffuse reflection lets nothing through, a dielectric what it doesn't reflect (as in MaterialX's own lobes), a
-    /// retro-reflective lobe what it doesn't send back: its tint is its strength, what is missing was never caught.
+    /// Diffuse reflection and metals let nothing through, a dielectric what it doesn't reflect (as in MaterialX's own
+    /// lobes), a retro-reflective lobe what it doesn't send back: its tint is its strength, what is missing was never
+    /// caught.
     #[inline]
     pub(crate) fn throughput(&self, out: Outgoing) -> Vec3 {
         let lobe = match &self.kind {
-            LobeKind::Retro { .. } => Vec3::ONE - self.albedo(out),
+            LobeKind::Retro(_) => Vec3::ONE - self.albedo(out),
             LobeKind::Diffuse(_) => Vec3::ZERO,
+            LobeKind::Cloth(lobe) => lobe.throughput(out.wo),
             LobeKind::Dielectric(lobe) => Vec3::splat(lobe.throughput(out.wo, out.inside)),
+            LobeKind::Metal(lobe) => lobe.throughput(out.wo),
         };
         (Vec3::ONE + self.weight * (lobe - Vec3::ONE)).clamp(Vec3::ZERO, Vec3::ONE)
     }
+}
+
+/// A normal turned to the side of the surface's, and bent to where the viewer can see it.
+fn visible(normal: Vec3, surface: Vec3, wo: Vec3) -> Vec3 {
+    /// The least cosine between the normal and the viewer.
+    const LEAST: f32 = 0.01;
+    let normal = if normal.dot(surface) < 0.0 { -normal } else { normal };
+    let cos = normal.dot(wo);
+    if cos >= LEAST { normal } else { (normal + wo * (LEAST - cos)).normalize_or(surface) }
 }
 
 fn to_catseye(v: Vec3) -> catseye::Vec3<f32> {

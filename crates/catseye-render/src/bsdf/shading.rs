@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::lobe::{LobeKind, LobeSample, Outgoing};
+use super::lobe::{LobeSample, Outgoing};
 use super::tree::{Bsdf, MAX_LOBES};
 use crate::Frame;
 
@@ -13,6 +13,7 @@ use crate::Frame;
 pub struct Shading<'a> {
     bsdf: &'a Bsdf,
     frame: Frame,
+    wo_world: Vec3,
     out: [Outgoing; MAX_LOBES],
     shares: [Vec3; MAX_LOBES],
     /// Probabilities with which lobes are sampled; they add up to 1 or 0.
@@ -39,13 +40,13 @@ impl Bsdf {
         let common = Outgoing { wo: frame.to_local(wo_world), inside };
         let mut out = [common; MAX_LOBES];
         for (out, lobe) in out.iter_mut().zip(&self.lobes) {
-            if let LobeKind::Retro { tangent_world: Some(tangent), .. } = &lobe.kind {
-                out.wo = Frame::from_normal_tangent(frame.z, *tangent).to_local(wo_world);
+            if let Some(own) = lobe.frame(&frame, wo_world) {
+                out.wo = own.to_local(wo_world);
             }
         }
         let shares = self.shares(&out);
         let selection = self.selection(&out, &shares);
-        Shading { bsdf: self, frame, out, shares, selection }
+        Shading { bsdf: self, frame, wo_world, out, shares, selection }
     }
 
     /// Each lobe's part of the albedo.
@@ -68,21 +69,13 @@ impl Bsdf {
 impl Shading<'_> {
     /// The direction in the frame of a lobe.
     fn local(&self, lobe: usize, wi_world: Vec3, wi_common: Vec3) -> Vec3 {
-        match &self.bsdf.lobes[lobe].kind {
-            LobeKind::Retro { tangent_world: Some(tangent), .. } => {
-                Frame::from_normal_tangent(self.frame.z, *tangent).to_local(wi_world)
-            }
-            _ => wi_common,
-        }
+        let own = self.bsdf.lobes[lobe].frame(&self.frame, self.wo_world);
+        own.map_or(wi_common, |own| own.to_local(wi_world))
     }
 
     fn world(&self, lobe: usize, wi_local: Vec3) -> Vec3 {
-        match &self.bsdf.lobes[lobe].kind {
-            LobeKind::Retro { tangent_world: Some(tangent), .. } => {
-                Frame::from_normal_tangent(self.frame.z, *tangent).to_world(wi_local)
-            }
-            _ => self.frame.to_world(wi_local),
-        }
+        let own = self.bsdf.lobes[lobe].frame(&self.frame, self.wo_world);
+        own.unwrap_or(self.frame).to_world(wi_local)
     }
 
     /// f |cos| per channel, and the density per steradian with which [`Shading::sample`] chooses `wi_world`. Dirac
@@ -95,11 +88,12 @@ impl Shading<'_> {
             if self.shares[i] == Vec3::ZERO {
                 continue;
             }
-            let (f_lobe, pdf_lobe) = lobe.eval_pdf(self.out[i], self.local(i, wi_world, wi_common));
-            f += self.shares[i] * f_lobe;
+            let wi = self.local(i, wi_world, wi_common);
+            let (f_lobe, pdf_lobe) = lobe.eval_pdf(self.out[i], wi);
+            f += self.shares[i] * f_lobe * wi.z.abs();
             pdf += self.selection[i] * pdf_lobe;
         }
-        (f * wi_common.z.abs(), pdf)
+        (f, pdf)
     }
 
     /// A direction for four uniform numbers; `None` where the light is absorbed.

@@ -1,12 +1,14 @@
 //! The closure tree: which lobes there are, and how much of each reaches the eye.
 
 use catseye::{AnyLobe, Model};
-use catseye_materialx::Closure;
+use catseye_materialx::{Closure, ScatterMode};
 use glam::Vec3;
 
+use super::cloth::Cloth;
 use super::dielectric::Dielectric;
 use super::diffuse::OrenNayar;
 use super::lobe::{Lobe, LobeKind, Outgoing};
+use super::metal::{Fresnel, Metal};
 use crate::Error;
 
 /// Lobes that one material may have: room is kept on the stack of every shading point.
@@ -43,8 +45,18 @@ impl Bsdf {
     /// # Errors
     /// As [`Bsdf::new`].
     pub fn with_model(closure: &Closure, model: Model) -> Result<Self, Error> {
-        let mut lobes = Vec::new();
-        let root = prepare(closure, model, &mut lobes)?;
+        Self::prepared(closure, model, Care::Exact)
+    }
+
+    /// Prepares what a closure is at one point of a surface that varies: quick, its shares of energy a little off.
+    pub(crate) fn at_point(closure: &Closure, model: Model) -> Result<Self, Error> {
+        Self::prepared(closure, model, Care::Quick)
+    }
+
+    fn prepared(closure: &Closure, model: Model, care: Care) -> Result<Self, Error> {
+        let mut builder = Builder { model, care, lobes: Vec::new() };
+        let root = builder.prepare(closure)?;
+        let lobes = builder.lobes;
         if lobes.len() > MAX_LOBES {
             return Err(Error::TooManyLobes { found: lobes.len(), max: MAX_LOBES });
         }
@@ -54,15 +66,14 @@ impl Bsdf {
     /// A BSDF of one retro-reflective lobe.
     #[must_use]
     pub fn from_lobe(lobe: AnyLobe<f32>) -> Self {
-        let kind = LobeKind::Retro { lobe: Box::new(lobe), tangent_world: None };
-        Self { lobes: vec![Lobe { weight: 1.0, kind }], root: Node::Lobe(0) }
+        Self { lobes: vec![Lobe::new(1.0, LobeKind::Retro(Box::new(lobe)))], root: Node::Lobe(0) }
     }
 
     /// A matte surface: Lambert's law.
     #[must_use]
     pub fn matte(color: Vec3) -> Self {
         let kind = LobeKind::Diffuse(OrenNayar::new(color, 0.0, false));
-        Self { lobes: vec![Lobe { weight: 1.0, kind }], root: Node::Lobe(0) }
+        Self { lobes: vec![Lobe::new(1.0, kind)], root: Node::Lobe(0) }
     }
 
     /// Factors of the lobes' BSDFs, for a direction given in each lobe's own frame.
@@ -106,32 +117,139 @@ impl Bsdf {
     }
 }
 
-fn prepare(closure: &Closure, model: Model, lobes: &mut Vec<Lobe>) -> Result<Node, Error> {
-    let mut child = |closure: &Closure| prepare(closure, model, lobes).map(Box::new);
-    let (weight, kind) = match closure {
-        Closure::None => return Ok(Node::None),
-        Closure::Mix { foreground, background, amount } => {
-            let (foreground, background) = (child(foreground)?, child(background)?);
-            return Ok(Node::Mix { foreground, background, amount: amount.clamp(0.0, 1.0) });
+/// How much time there is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Care {
+    /// Once for a material.
+    Exact,
+    /// Once for a point.
+    Quick,
+}
+
+/// Makes a [`Bsdf`].
+struct Builder {
+    model: Model,
+    care: Care,
+    lobes: Vec<Lobe>,
+}
+
+impl Builder {
+    fn prepare(&mut self, closure: &Closure) -> Result<Node, Error> {
+        match closure {
+            Closure::None => Ok(Node::None),
+            Closure::Mix { foreground, background, amount } => {
+                // What doesn't count takes no room.
+                match amount.clamp(0.0, 1.0) {
+                    0.0 => self.prepare(background),
+                    1.0 => self.prepare(foreground),
+                    amount => Ok(Node::Mix {
+                        foreground: self.boxed(foreground)?,
+                        background: self.boxed(background)?,
+                        amount,
+                    }),
+                }
+            }
+            Closure::Layer { top, base } => {
+                Ok(Node::Layer { top: self.boxed(top)?, base: self.boxed(base)? })
+            }
+            Closure::Add { a, b } => Ok(Node::Add { a: self.boxed(a)?, b: self.boxed(b)? }),
+            Closure::Multiply { closure, factor } => {
+                Ok(Node::Multiply { closure: self.boxed(closure)?, factor: Vec3::from(*factor) })
+            }
+            leaf => {
+                let Some(lobe) = self.lobe(leaf)? else { return Ok(Node::None) };
+                self.lobes.push(lobe);
+                Ok(Node::Lobe(self.lobes.len() - 1))
+            }
         }
-        Closure::Layer { top, base } => return Ok(Node::Layer { top: child(top)?, base: child(base)? }),
-        Closure::Add { a, b } => return Ok(Node::Add { a: child(a)?, b: child(b)? }),
-        Closure::Multiply { closure, factor } => {
-            return Ok(Node::Multiply { closure: child(closure)?, factor: Vec3::from(*factor) });
+    }
+
+    fn boxed(&mut self, closure: &Closure) -> Result<Box<Node>, Error> {
+        self.prepare(closure).map(Box::new)
+    }
+
+    /// `None` for a lobe of weight 0.
+    fn lobe(&self, closure: &Closure) -> Result<Option<Lobe>, Error> {
+        let color = |color: &[f32; 3]| Vec3::from(*color).clamp(Vec3::ZERO, Vec3::ONE);
+        let (weight, kind) = match closure {
+            Closure::Oriented { closure, normal, tangent } => {
+                let Some(mut lobe) = self.lobe(closure)? else { return Ok(None) };
+                lobe.normal_world = normal.map(Vec3::from).and_then(Vec3::try_normalize);
+                lobe.tangent_world = lobe.tangent_world.or(tangent.map(Vec3::from));
+                return Ok(Some(lobe));
+            }
+            Closure::RetroReflective { weight, params, tangent_u } => {
+                if *weight <= 0.0 {
+                    return Ok(None);
+                }
+                let mut lobe =
+                    Lobe::new(*weight, LobeKind::Retro(Box::new(AnyLobe::new(self.model, params)?)));
+                lobe.tangent_world = tangent_u.map(Vec3::from);
+                return Ok(Some(lobe));
+            }
+            Closure::OrenNayarDiffuse { weight, color, roughness, energy_compensation } => {
+                let lobe = OrenNayar::new(Vec3::from(*color), *roughness, *energy_compensation);
+                (weight, LobeKind::Diffuse(lobe))
+            }
+            Closure::BurleyDiffuse { weight, color: c, roughness } => {
+                (weight, LobeKind::Cloth(Cloth::burley(color(c), *roughness)))
+            }
+            Closure::Translucent { weight, color: c } => {
+                (weight, LobeKind::Cloth(Cloth::translucent(color(c))))
+            }
+            Closure::Sheen { weight, color: c, roughness } => {
+                (weight, LobeKind::Cloth(Cloth::sheen(color(c), *roughness)))
+            }
+            Closure::Dielectric { weight, tint, ior, roughness, scatter_mode, .. } => (
+                weight,
+                LobeKind::Dielectric(self.dielectric(Vec3::from(*tint), *ior, *roughness, *scatter_mode)),
+            ),
+            Closure::Conductor { weight, ior, extinction, roughness, .. } => {
+                let fresnel = Fresnel::Conductor { n: Vec3::from(*ior), k: Vec3::from(*extinction) };
+                (weight, LobeKind::Metal(Metal::new(fresnel, *roughness)))
+            }
+            Closure::GeneralizedSchlick {
+                weight,
+                color0,
+                color82,
+                color90,
+                exponent,
+                roughness,
+                scatter_mode,
+                ..
+            } => {
+                let kind = if *scatter_mode == ScatterMode::Reflect {
+                    let [at_0, at_82, at_90] = [color0, color82, color90].map(color);
+                    let fresnel = Fresnel::Schlick { at_0, at_82, at_90, exponent: exponent.max(0.0) };
+                    LobeKind::Metal(Metal::new(fresnel, *roughness))
+                } else {
+                    // Refraction needs an index: that of a dielectric which reflects as much head on.
+                    let root = (color(color0).element_sum() / 3.0).min(0.99).sqrt();
+                    let ior = (1.0 + root) / (1.0 - root);
+                    LobeKind::Dielectric(self.dielectric(Vec3::ONE, ior, *roughness, *scatter_mode))
+                };
+                (weight, kind)
+            }
+            // Combinations of lobes have no lobe: MaterialX gives them no normal either.
+            _ => return Ok(None),
+        };
+        if *weight <= 0.0 {
+            return Ok(None);
         }
-        Closure::RetroReflective { weight, params, tangent_u } => {
-            let lobe = Box::new(AnyLobe::new(model, params)?);
-            (weight, LobeKind::Retro { lobe, tangent_world: tangent_u.map(Vec3::from) })
+        let mut lobe = Lobe::new(*weight, kind);
+        lobe.retroreflective = matches!(
+            closure,
+            Closure::Dielectric { retroreflective: true, .. }
+                | Closure::Conductor { retroreflective: true, .. }
+                | Closure::GeneralizedSchlick { retroreflective: true, .. }
+        );
+        Ok(Some(lobe))
+    }
+
+    fn dielectric(&self, tint: Vec3, ior: f32, roughness: [f32; 2], mode: ScatterMode) -> Dielectric {
+        match self.care {
+            Care::Exact => Dielectric::new(tint, ior, roughness, mode),
+            Care::Quick => Dielectric::varying(tint, ior, roughness, mode),
         }
-        Closure::OrenNayarDiffuse { weight, color, roughness, energy_compensation } => {
-            let lobe = OrenNayar::new(Vec3::from(*color), *roughness, *energy_compensation);
-            (weight, LobeKind::Diffuse(lobe))
-        }
-        Closure::Dielectric { weight, tint, ior, roughness, scatter_mode } => {
-            let lobe = Dielectric::new(Vec3::from(*tint), *ior, *roughness, *scatter_mode);
-            (weight, LobeKind::Dielectric(lobe))
-        }
-    };
-    lobes.push(Lobe { weight: weight.clamp(0.0, 1.0), kind });
-    Ok(Node::Lobe(lobes.len() - 1))
+    }
 }

@@ -4,7 +4,7 @@ use catseye::{Model, Params};
 use catseye_materialx::{Closure, Material};
 use glam::Vec3;
 
-use crate::{Bsdf, Error, MaterialId, SceneBuilder};
+use crate::{Error, MaterialId, SceneBuilder};
 
 /// White.
 pub(crate) const WHITE: Vec3 = Vec3::ONE;
@@ -18,8 +18,7 @@ pub(crate) const AMBER: Vec3 = Vec3::new(0.95, 0.45, 0.03);
 /// What signs, bands and studs are covered with, in any colour.
 #[derive(Debug)]
 pub(crate) struct Finish {
-    white: Closure,
-    opacity: f32,
+    white: Material,
     model: Model,
 }
 
@@ -27,20 +26,23 @@ impl Finish {
     /// Retro-reflective sheeting: the given material, or one like beaded sheeting.
     pub(crate) fn sheeting(material: Option<&Material>, model: Model) -> Self {
         match material {
-            Some(material) => Self { white: material.bsdf.clone(), opacity: material.opacity, model },
-            None => Self { white: beaded_sheeting(), opacity: 1.0, model },
+            Some(material) => Self { white: material.clone(), model },
+            None => Self::of(beaded_sheeting(), model),
         }
+    }
+
+    fn of(bsdf: Closure, model: Model) -> Self {
+        Self { white: Material { bsdf, ..Material::default() }, model }
     }
 
     /// Matte white paint.
     pub(crate) fn paint() -> Self {
-        Self { white: diffuse(0.8), opacity: 1.0, model: Model::default() }
+        Self::of(diffuse(0.8), Model::default())
     }
 
     /// Adds the finish in a colour to a scene.
     pub(crate) fn material(&self, builder: &mut SceneBuilder, color: Vec3) -> Result<MaterialId, Error> {
-        let closure = Closure::Multiply { closure: Box::new(self.white.clone()), factor: color.into() };
-        Ok(builder.translucent_material(Bsdf::with_model(&closure, self.model)?, self.opacity))
+        builder.tinted_materialx(&self.white, self.model, color)
     }
 }
 

@@ -28,7 +28,7 @@ pub(crate) fn scene(material: &Material, model: Model) -> Result<Scene, Error> {
     let mut builder = SceneBuilder::new(Camera::perspective(EYE, TARGET, Vec3::Y, 0.235));
     let bsdf = Bsdf::with_model(&material.bsdf, model)?;
     let headlamp = headlamp(&bsdf);
-    let subject = builder.translucent_material(bsdf, material.opacity);
+    let subject = builder.materialx(material, model)?;
     let ground = builder.material(Bsdf::matte(Vec3::splat(0.16)));
     let white = builder.material(Bsdf::matte(Vec3::splat(0.8)));
 

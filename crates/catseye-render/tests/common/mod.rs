@@ -17,7 +17,14 @@ pub(crate) fn diffuse(color: f32, roughness: f32) -> Closure {
 }
 
 pub(crate) fn dielectric(roughness: [f32; 2], scatter_mode: ScatterMode) -> Closure {
-    Closure::Dielectric { weight: 1.0, tint: [1.0; 3], ior: 1.5, roughness, scatter_mode }
+    Closure::Dielectric {
+        weight: 1.0,
+        tint: [1.0; 3],
+        ior: 1.5,
+        roughness,
+        retroreflective: false,
+        scatter_mode,
+    }
 }
 
 pub(crate) fn layer(top: Closure, base: Closure) -> Closure {
@@ -63,6 +70,39 @@ pub(crate) fn zoo() -> Vec<(&'static str, Closure)> {
         ("retro on diffuse", layer(retro(Params::isotropic(0.2).with_tint([0.3; 3])), diffuse(0.9, 0.2))),
         ("coat on retro on diffuse", layer(coat(), layer(retro(Params::isotropic(0.4)), diffuse(1.0, 0.0)))),
         ("multiply", Closure::Multiply { closure: Box::new(retro(white)), factor: [1.0, 0.5, 0.0] }),
+        ("metal", conductor(false)),
+        ("retro-reflective metal", conductor(true)),
+        (
+            "generalized schlick",
+            Closure::GeneralizedSchlick {
+                weight: 1.0,
+                color0: [0.04, 0.3, 0.9],
+                color82: [1.0; 3],
+                color90: [1.0; 3],
+                exponent: 5.0,
+                roughness: [0.2; 2],
+                retroreflective: false,
+                scatter_mode: ScatterMode::Reflect,
+            },
+        ),
+        ("burley", Closure::BurleyDiffuse { weight: 1.0, color: [0.8; 3], roughness: 0.5 }),
+        ("translucent", Closure::Translucent { weight: 1.0, color: [0.8; 3] }),
+        ("sheen", Closure::Sheen { weight: 1.0, color: [0.8; 3], roughness: 0.4 }),
+        (
+            "sheen on diffuse",
+            layer(Closure::Sheen { weight: 0.5, color: [1.0; 3], roughness: 0.4 }, diffuse(0.9, 0.0)),
+        ),
+        (
+            "tilted coat on diffuse",
+            layer(
+                Closure::Oriented {
+                    closure: Box::new(coat()),
+                    normal: Some([0.2, 0.1, 0.97]),
+                    tangent: Some([0.0, 1.0, 0.0]),
+                },
+                diffuse(0.5, 0.0),
+            ),
+        ),
         (
             "sum of halves",
             Closure::Add {
@@ -71,6 +111,16 @@ pub(crate) fn zoo() -> Vec<(&'static str, Closure)> {
             },
         ),
     ]
+}
+
+fn conductor(retroreflective: bool) -> Closure {
+    Closure::Conductor {
+        weight: 1.0,
+        ior: [0.183, 0.421, 1.373],
+        extinction: [3.424, 2.346, 1.770],
+        roughness: [0.2; 2],
+        retroreflective,
+    }
 }
 
 pub(crate) fn picture(scene: &Scene, [width, height]: [usize; 2], spp: u32, max_depth: u32) -> Image {

@@ -1,0 +1,201 @@
+//! Patterns: what inputs are where they vary over a surface.
+//!
+//! A [`Program`] is a list of instructions, each writing one register of four numbers from earlier ones; equal
+//! instructions are stored once, and those without the geometry among their sources are computed when the document is
+//! read.
+
+mod lower;
+mod noise;
+mod op;
+mod signature;
+
+use std::{collections::HashMap, sync::Arc};
+
+pub(crate) use lower::{Lowering, Operand};
+pub(crate) use op::{Geometry, Op};
+pub(crate) use signature::{Fallback, Parameter, Port, Signature, signature, signatures};
+
+use crate::texture::Texture;
+
+/// A register's content: components beyond the value's width are 0.
+pub(crate) type Lanes = [f32; 4];
+
+/// A point of a surface, as patterns see it. Directions are unit vectors in world space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ShadingPoint {
+    /// World space.
+    pub position: [f32; 3],
+    /// In the space that the object was modelled in.
+    pub position_object: [f32; 3],
+    /// On the side of the viewer.
+    pub normal: [f32; 3],
+    /// Along increasing u.
+    pub tangent: [f32; 3],
+    /// Along increasing v.
+    pub bitangent: [f32; 3],
+    /// v points up.
+    pub texcoord: [f32; 2],
+    /// From the viewer to the point.
+    pub view: [f32; 3],
+}
+
+impl Default for ShadingPoint {
+    /// The origin of a plane at z = 0, seen head on.
+    fn default() -> Self {
+        Self {
+            position: [0.0; 3],
+            position_object: [0.0; 3],
+            normal: [0.0, 0.0, 1.0],
+            tangent: [1.0, 0.0, 0.0],
+            bitangent: [0.0, 1.0, 0.0],
+            texcoord: [0.0; 2],
+            view: [0.0, 0.0, -1.0],
+        }
+    }
+}
+
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+struct Instruction {
+    op: Op,
+    /// Components of the result.
+    width: u8,
+    sources: Box<[u32]>,
+}
+
+/// Compiled patterns.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Program {
+    instructions: Vec<Instruction>,
+    textures: Vec<Arc<Texture>>,
+}
+
+/// Most sources of one instruction.
+const MAX_SOURCES: usize = 4;
+
+impl Program {
+    /// Computes all registers.
+    pub(crate) fn run(&self, point: &ShadingPoint, registers: &mut Vec<Lanes>) {
+        registers.clear();
+        registers.reserve(self.instructions.len());
+        for instruction in &self.instructions {
+            let mut sources = [[0.0; 4]; MAX_SOURCES];
+            for (source, &register) in sources.iter_mut().zip(&instruction.sources) {
+                *source = registers[register as usize];
+            }
+            registers.push(instruction.op.apply(instruction.width, &sources, point, &self.textures));
+        }
+    }
+
+    /// Bytes of all its textures.
+    pub(crate) fn texture_bytes(&self) -> usize {
+        self.textures.iter().map(|texture| texture.bytes()).sum()
+    }
+}
+
+/// Makes a [`Program`].
+#[derive(Debug, Default)]
+pub(crate) struct Assembler {
+    program: Program,
+    /// What registers hold that don't depend on the geometry.
+    constants: Vec<Option<Lanes>>,
+    known: HashMap<Instruction, u32>,
+}
+
+impl Assembler {
+    pub(crate) fn len(&self) -> usize {
+        self.program.instructions.len()
+    }
+
+    /// The register with the result of an instruction.
+    pub(crate) fn push(&mut self, op: Op, width: u8, sources: &[u32]) -> u32 {
+        debug_assert!(sources.len() <= MAX_SOURCES, "{op:?} has {} sources", sources.len());
+        let instruction = Instruction { op, width, sources: sources.into() };
+        if let Some(&register) = self.known.get(&instruction) {
+            return register;
+        }
+        if !matches!(op, Op::Constant(_)) && !op.reads_geometry() {
+            let constants: Option<Vec<Lanes>> = sources.iter().map(|&source| self.constant(source)).collect();
+            if let Some(constants) = constants {
+                let mut lanes = [[0.0; 4]; MAX_SOURCES];
+                lanes[..constants.len()].copy_from_slice(&constants);
+                let point = ShadingPoint::default();
+                let result = op.apply(width, &lanes, &point, &self.program.textures);
+                return self.push(Op::constant(result), width, &[]);
+            }
+        }
+        let register = self.program.instructions.len() as u32;
+        self.constants.push(match op {
+            Op::Constant(bits) => Some(bits.map(f32::from_bits)),
+            _ => None,
+        });
+        self.program.instructions.push(instruction.clone());
+        self.known.insert(instruction, register);
+        register
+    }
+
+    /// How many components a register has.
+    pub(crate) fn width(&self, register: u32) -> u8 {
+        self.program.instructions[register as usize].width
+    }
+
+    /// What a register holds, wherever on the surface.
+    pub(crate) fn constant(&self, register: u32) -> Option<Lanes> {
+        self.constants[register as usize]
+    }
+
+    pub(crate) fn texture(&mut self, texture: Arc<Texture>) -> u32 {
+        let textures = &mut self.program.textures;
+        match textures.iter().position(|known| Arc::ptr_eq(known, &texture)) {
+            Some(index) => index as u32,
+            None => {
+                textures.push(texture);
+                textures.len() as u32 - 1
+            }
+        }
+    }
+
+    /// The program that computes some of the registers, and where in it they are.
+    pub(crate) fn finish(&self, wanted: &[u32]) -> (Program, HashMap<u32, u32>) {
+        let mut live = vec![false; self.len()];
+        wanted.iter().for_each(|&register| live[register as usize] = true);
+        for (register, instruction) in self.program.instructions.iter().enumerate().rev() {
+            if live[register] {
+                instruction.sources.iter().for_each(|&source| live[source as usize] = true);
+            }
+        }
+        let mut places = HashMap::new();
+        let mut program = Program { instructions: Vec::new(), textures: self.program.textures.clone() };
+        for (register, instruction) in self.program.instructions.iter().enumerate() {
+            if live[register] {
+                let mut instruction = instruction.clone();
+                instruction.sources.iter_mut().for_each(|source| *source = places[source]);
+                places.insert(register as u32, program.instructions.len() as u32);
+                program.instructions.push(instruction);
+            }
+        }
+        (program, places)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn constants_are_folded_and_equal_instructions_shared() {
+        let mut assembler = Assembler::default();
+        let two = assembler.push(Op::constant([2.0, 0.0, 0.0, 0.0]), 1, &[]);
+        let three = assembler.push(Op::constant([3.0, 0.0, 0.0, 0.0]), 1, &[]);
+        let five = assembler.push(Op::Add, 1, &[two, three]);
+        assert_eq!(assembler.constant(five), Some([5.0, 0.0, 0.0, 0.0]));
+        let uv = assembler.push(Op::Geometry(Geometry::Texcoord), 2, &[]);
+        let sum = assembler.push(Op::Add, 2, &[uv, uv]);
+        assert_eq!(assembler.push(Op::Add, 2, &[uv, uv]), sum);
+        assert_eq!(assembler.constant(sum), None);
+        let (program, places) = assembler.finish(&[sum]);
+        assert_eq!(program.instructions.len(), 2);
+        let mut registers = Vec::new();
+        program.run(&ShadingPoint { texcoord: [0.25, 0.5], ..ShadingPoint::default() }, &mut registers);
+        assert_eq!(registers[places[&sum] as usize], [0.5, 1.0, 0.0, 0.0]);
+    }
+}

@@ -1,0 +1,62 @@
+//! Promise: `check` names every problem of a document in one go, and nothing that is none.
+
+use catseye_materialx::{Library, check, check_bytes};
+
+const FAULTY: &str = r#"<materialx version="1.39">
+<hair_bsdf name="hair" type="BSDF" />
+<oren_nayar_diffuse_bsdf name="d" type="BSDF">
+  <input name="colour" type="color3" value="1, 1, 1" />
+  <input name="roughness" type="float" value="2" />
+  <input name="color" type="color3" nodename="nowhere" />
+</oren_nayar_diffuse_bsdf>
+<image name="i" type="color3">
+  <input name="file" type="filename" value="missing.png" />
+  <input name="texcoord" type="color3" value="1, 1, 1" />
+</image>
+<add name="a" type="color3"><input name="in1" type="color3" nodename="b" /></add>
+<add name="b" type="color3"><input name="in1" type="color3" nodename="a" /></add>
+<mix name="m" type="BSDF"><input name="fg" type="BSDF" nodename="a" /></mix>
+<add name="m" type="float" />
+<xi:include xmlns:xi="http://www.w3.org/2001/XInclude" href="nowhere.mtlx" />
+<nodegraph name="g"><sin name="s" type="float"><input name="in" type="float" interfacename="gone" /></sin>
+<output name="out" type="float" nodename="t" /></nodegraph>
+<look name="l"><materialassign name="x" material="none" geom="/" /></look>
+</materialx>"#;
+
+#[test]
+fn all_problems_at_once() {
+    let problems = check_bytes(FAULTY.as_bytes(), "f.mtlx", &Library::default());
+    let lines: Vec<String> = problems.iter().map(ToString::to_string).collect();
+    let expected = [
+        ("f.mtlx:2:1: ", "unknown node category"),
+        ("f.mtlx:4:3: ", "no such input"),
+        ("f.mtlx:5:3: ", "roughness is 2, outside [0, 1]"),
+        ("f.mtlx:6:3: ", "is connected to nodename=\"nowhere\""),
+        ("f.mtlx:9:3: ", "there is no file \"missing.png\""),
+        ("f.mtlx:10:3: ", "is of type \"color3\"; vector2 is expected"),
+        ("f.mtlx:12:1: ", "feeds itself through \"a\", \"b\""),
+        ("f.mtlx:14:27: ", "is of type \"color3\" by its connection; BSDF is expected"),
+        ("f.mtlx:15:1: ", "the name is already taken in line 14"),
+        ("f.mtlx:16:1: ", "there is no file \"nowhere.mtlx\""),
+        ("f.mtlx:17:48: ", "interfacename=\"gone\", which doesn't exist"),
+        ("f.mtlx:18:1: ", "nodename=\"t\", which doesn't exist"),
+        ("f.mtlx:19:16: ", "material=\"none\", which doesn't exist"),
+    ];
+    for (place, message) in expected {
+        let found = lines.iter().any(|line| line.starts_with(place) && line.contains(message));
+        assert!(found, "{place}{message} is not among\n{}", lines.join("\n"));
+    }
+    assert_eq!(lines.len(), expected.len(), "{}", lines.join("\n"));
+}
+
+#[test]
+fn our_own_materials_are_without_problems() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../materials");
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|extension| extension == "mtlx") {
+            let problems = check(&path, &Library::default());
+            assert!(problems.is_empty(), "{problems:?}");
+        }
+    }
+}

@@ -1,0 +1,146 @@
+"""What the tests share: the library loaded beside MaterialX's own, the generators, the example documents."""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+
+import MaterialX as mx
+import MaterialX.PyMaterialXGenGlsl as gen_glsl
+import MaterialX.PyMaterialXGenMdl as gen_mdl
+import MaterialX.PyMaterialXGenMsl as gen_msl
+import MaterialX.PyMaterialXGenOsl as gen_osl
+import MaterialX.PyMaterialXGenShader as gen_shader
+import MaterialX.PyMaterialXGenSlang as gen_slang
+
+HERE = pathlib.Path(__file__).resolve().parent
+CRATE = HERE.parents[1]
+ROOT = CRATE.parents[1]
+LIBRARIES = CRATE / "libraries"
+MATERIALS = ROOT / "materials"
+EVIDENCE = pathlib.Path(os.environ.get("CATSEYE_EVIDENCE", ROOT / "target/evidence/materialx"))
+REQUIRE_ALL = os.environ.get("CATSEYE_REQUIRE") == "all"
+
+GENERATORS = {
+    "glsl": gen_glsl.GlslShaderGenerator,
+    "essl": gen_glsl.EsslShaderGenerator,
+    "vk": gen_glsl.VkShaderGenerator,
+    "wgsl": gen_glsl.WgslShaderGenerator,
+    "msl": gen_msl.MslShaderGenerator,
+    "slang": gen_slang.SlangShaderGenerator,
+    "osl": gen_osl.OslShaderGenerator,
+    "mdl": gen_mdl.MdlShaderGenerator,
+}
+HARDWARE = ["glsl", "essl", "vk", "wgsl", "msl", "slang"]
+ENVIRONMENTS = ["NONE", "PREFILTER", "FIS"]
+
+
+def search_path():
+    path = mx.getDefaultDataSearchPath()
+    path.append(mx.FilePath(str(LIBRARIES)))
+    return path
+
+
+def data_library():
+    """MaterialX's definitions and ours."""
+    library = mx.createDocument()
+    mx.loadLibraries(mx.getDefaultDataLibraryFolders(), search_path(), library)
+    mx.loadLibraries(["catseye"], search_path(), library)
+    return library
+
+
+def documents():
+    """The workspace's materials, and those that use what its reader does not know yet."""
+    return sorted([*MATERIALS.glob("*.mtlx"), *(HERE / "documents").glob("*.mtlx")])
+
+
+def read(path, library):
+    document = mx.createDocument()
+    mx.readFromXmlFile(document, str(path))
+    document.setDataLibrary(library)
+    return document
+
+
+def parse(text, library):
+    document = mx.createDocument()
+    mx.readFromXmlString(document, text)
+    document.setDataLibrary(library)
+    return document
+
+
+def material(document):
+    [element] = [node for node in document.getNodes() if node.getType() == "material"]
+    return element
+
+
+def generate(document, target, environment="FIS", lights=None):
+    """The generated shader."""
+    generator = GENERATORS[target].create()
+    colors = gen_shader.DefaultColorManagementSystem.create(generator.getTarget())
+    colors.loadLibrary(document.getDataLibrary())
+    generator.setColorManagementSystem(colors)
+    context = gen_shader.GenContext(generator)
+    context.registerSourceCodeSearchPath(search_path())
+    options = context.getOptions()
+    options.hwSpecularEnvironmentMethod = getattr(
+        gen_shader.HwSpecularEnvironmentMethod, f"SPECULAR_ENVIRONMENT_{environment}")
+    options.hwMaxActiveLightSources = 4
+    options.targetColorSpaceOverride = "lin_rec709"
+    if lights is not None:
+        lights(context, generator)
+    return generator.generate("material", material(document), context)
+
+
+def connect_constants(document):
+    """MaterialX 1.39.5's generators ignore a literal where the port has a default geometric property: tangents must come
+    from a node."""
+    for graph in [document, *document.getNodeGraphs()]:
+        for node in graph.getNodes("retro_reflective_bsdf"):
+            port = node.getInput("tangent_u")
+            if port is not None and port.hasValueString():
+                constant = graph.addNode("constant", f"{node.getName()}_tangent", "vector3")
+                constant.addInput("value", "vector3").setValueString(port.getValueString())
+                port.removeAttribute("value")
+                port.setConnectedNode(constant)
+    return document
+
+
+def stages(shader):
+    """The source of each stage, by name."""
+    return {name: complete(shader.getSourceCode(name)) for name in ("vertex", "pixel") if shader.hasStage(name)}
+
+
+def complete(source):
+    """Without an environment MaterialX 1.39.5 does not declare u_refractionTwoSided, which its own refraction uses."""
+    name = "u_refractionTwoSided"
+    if not source.startswith("#version") or name not in source or re.search(rf"\w+ {name}( =|;)", source):
+        return source
+    version, rest = source.split("\n", 1)
+    return f"{version}\nconst bool {name} = false;\n{rest}"
+
+
+def tool(case, name):
+    """The path of a command; a test that lacks it is skipped, or fails where everything is required."""
+    path = shutil.which(name)
+    if path is None:
+        missing(case, f"{name} is not installed")
+    return path
+
+
+def missing(case, reason):
+    if REQUIRE_ALL:
+        case.fail(reason)
+    case.skipTest(reason)
+
+
+def run(*command, **options):
+    """Runs a command; returns its output and whether it succeeded."""
+    done = subprocess.run([str(part) for part in command], capture_output=True, text=True, check=False, **options)
+    return done.stdout + done.stderr, done.returncode == 0
+
+
+def report(*words):
+    """Numbers for the test's log."""
+    print(*words, file=sys.stderr)

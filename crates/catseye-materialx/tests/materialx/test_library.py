@@ -1,0 +1,72 @@
+"""The library loads beside MaterialX's own, validates, and has for every target what the documentation says."""
+
+import re
+import unittest
+
+import MaterialX as mx
+
+from support import LIBRARIES, ROOT, data_library, documents, read
+
+TARGETS = ["genglsl", "essl", "genmsl", "genslang", "genosl", "genmdl"]
+
+
+class Library(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.library = data_library()
+        cls.ours = [d for d in cls.library.getNodeDefs() if "/catseye/" in d.getSourceUri() or
+                    d.getSourceUri().startswith("catseye/")]
+
+    def test_validates(self):
+        valid, message = self.library.validate()
+        self.assertTrue(valid, message)
+
+    def test_documents_validate(self):
+        for path in documents():
+            with self.subTest(path.name):
+                valid, message = read(path, self.library).validate()
+                self.assertTrue(valid, message)
+
+    def test_every_nodedef_is_implemented_as_documented(self):
+        """The table of docs/materialx.md: a row for each nodedef, a column for each target."""
+        text = (ROOT / "docs/materialx.md").read_text()
+        rows = re.findall(r"^\| `(ND_\w+)` \|(.*)\|$", text, re.MULTILINE)
+        documented = {name: [cell.strip() for cell in cells.split("|")] for name, cells in rows}
+        self.assertEqual(sorted(documented), sorted(d.getName() for d in self.ours))
+        for nodedef in self.ours:
+            for target, cell in zip(TARGETS, documented[nodedef.getName()], strict=True):
+                with self.subTest(nodedef=nodedef.getName(), target=target):
+                    found = nodedef.getImplementation(target)
+                    self.assertIsNotNone(found, "no implementation")
+                    self.assertEqual(cell, self.kind(found))
+
+    @staticmethod
+    def kind(implementation):
+        if implementation.isA(mx.NodeGraph):
+            return "nodegraph"
+        return f"`{implementation.getFile()}`"
+
+    def test_every_port_is_described(self):
+        for nodedef in self.ours:
+            self.assertTrue(nodedef.getDocString())
+            for port in nodedef.getInputs():
+                with self.subTest(nodedef=nodedef.getName(), port=port.getName()):
+                    wanted = ["doc", "uiname", "uifolder"]
+                    if port.getType() in ("float", "color3"):
+                        wanted.append("uimin")
+                        wanted.append("uimax" if port.hasAttribute("uimax") else "uisoftmax")
+                    for name in wanted:
+                        self.assertTrue(port.getAttribute(name), name)
+
+    def test_every_file_is_used(self):
+        folder = LIBRARIES / "catseye"
+        used = set()
+        for implementation in self.library.getImplementations():
+            if implementation.getFile() and implementation.getNodeDef() in self.ours:
+                used.add(implementation.getFile().split("/")[-1])
+        sources = [p for p in folder.rglob("*") if p.suffix in (".glsl", ".osl", ".mdl") and p.parent.name != "lib"]
+        self.assertEqual({p.name for p in sources}, used)
+
+
+if __name__ == "__main__":
+    unittest.main()

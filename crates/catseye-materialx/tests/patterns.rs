@@ -1,0 +1,241 @@
+//! Promise: patterns compute what MaterialX says they do, and constants are folded away.
+
+mod support;
+
+use std::sync::Arc;
+
+use catseye_materialx::{Closure, Document, Library, Material, SearchPath, ShadingPoint};
+use support::{document, single};
+
+fn parse(text: &str) -> Material {
+    Document::parse(text, "test.mtlx")
+        .and_then(|document| document.material(None))
+        .unwrap_or_else(|error| panic!("{error}\n{text}"))
+}
+
+/// A material whose diffuse colour is the node `p`.
+fn colored(nodes: &str) -> Material {
+    parse(&document(&format!(
+        r#"<oren_nayar_diffuse_bsdf name="bsdf" type="BSDF"><input name="color" type="color3" nodename="p" /></oren_nayar_diffuse_bsdf>
+{nodes}"#
+    )))
+}
+
+fn color_of(bsdf: &Closure) -> [f32; 3] {
+    match bsdf {
+        Closure::OrenNayarDiffuse { color, .. } => *color,
+        other => panic!("{other:?}"),
+    }
+}
+
+/// The colour at texture coordinates (0.25, 0.5), position (1, 2, 3).
+fn color(nodes: &str) -> [f32; 3] {
+    let material = colored(nodes);
+    let point = ShadingPoint {
+        texcoord: [0.25, 0.5],
+        position: [1.0, 2.0, 3.0],
+        position_object: [1.0, 2.0, 3.0],
+        ..ShadingPoint::default()
+    };
+    match &material.patterns {
+        Some(patterns) => color_of(&patterns.at(&point).bsdf),
+        None => color_of(&material.bsdf),
+    }
+}
+
+fn assert_near(actual: [f32; 3], expected: [f32; 3], case: &str) {
+    for (a, e) in actual.into_iter().zip(expected) {
+        assert!((a - e).abs() < 1e-5, "{case}: {actual:?}, {expected:?} expected");
+    }
+}
+
+/// Name, type and value of an input; `@n` is a connection to the node `n`.
+type Input = (&'static str, &'static str, &'static str);
+
+/// One node `p` of type color3 with these inputs.
+fn one(category: &str, inputs: &[Input]) -> String {
+    let inputs: String = inputs
+        .iter()
+        .map(|(name, ty, value)| {
+            let attribute = if value.starts_with('@') { "nodename" } else { "value" };
+            format!(r#"<input name="{name}" type="{ty}" {attribute}="{}" />"#, value.trim_start_matches('@'))
+        })
+        .collect();
+    format!(
+        r#"<{category} name="p" type="color3">{inputs}</{category}>
+        <texcoord name="uv" type="vector2" />
+        <extract name="u" type="float"><input name="in" type="vector2" nodename="uv" /><input name="index" type="integer" value="0" /></extract>
+        <convert name="uuu" type="color3"><input name="in" type="float" nodename="u" /></convert>"#
+    )
+}
+
+#[test]
+fn nodes_compute_what_they_are_named_for() {
+    let c = "color3";
+    let f = "float";
+    let cases: &[(&str, &[Input], [f32; 3])] = &[
+        ("constant", &[("value", c, "0.1, 0.2, 0.3")], [0.1, 0.2, 0.3]),
+        ("add", &[("in1", c, "@uuu"), ("in2", f, "0.5")], [0.75; 3]),
+        ("subtract", &[("in1", c, "1, 0.9, 0.8"), ("in2", c, "@uuu")], [0.75, 0.65, 0.55]),
+        ("multiply", &[("in1", c, "@uuu"), ("in2", c, "1, 2, 3")], [0.25, 0.5, 0.75]),
+        ("divide", &[("in1", c, "@uuu"), ("in2", f, "0.5")], [0.5; 3]),
+        ("divide", &[("in1", c, "@uuu"), ("in2", f, "0")], [0.0; 3]),
+        ("modulo", &[("in1", c, "0.7, 0.5, 0.3"), ("in2", c, "@uuu")], [0.2, 0.0, 0.05]),
+        ("power", &[("in1", c, "@uuu"), ("in2", f, "0.5")], [0.5; 3]),
+        ("sqrt", &[("in", c, "@uuu")], [0.5; 3]),
+        ("min", &[("in1", c, "@uuu"), ("in2", c, "0.1, 0.3, 1")], [0.1, 0.25, 0.25]),
+        ("max", &[("in1", c, "@uuu"), ("in2", f, "0.3")], [0.3; 3]),
+        ("invert", &[("in", c, "@uuu")], [0.75; 3]),
+        ("mix", &[("fg", c, "1, 1, 1"), ("bg", c, "0, 0, 0.5"), ("mix", f, "@u")], [0.25, 0.25, 0.625]),
+        ("clamp", &[("in", c, "@uuu"), ("low", f, "0.3")], [0.3; 3]),
+        ("smoothstep", &[("in", c, "@uuu"), ("high", f, "0.5")], [0.5; 3]),
+        ("remap", &[("in", c, "@uuu"), ("outlow", f, "0.5"), ("outhigh", f, "1")], [0.625; 3]),
+        ("contrast", &[("in", c, "@uuu"), ("amount", f, "0.5")], [0.375; 3]),
+        (
+            "ifgreater",
+            &[("value1", f, "@u"), ("value2", f, "0.2"), ("in1", c, "1, 0, 0"), ("in2", c, "0, 1, 0")],
+            [1.0, 0.0, 0.0],
+        ),
+        ("ramplr", &[("valuel", c, "0, 0, 0"), ("valuer", c, "1, 1, 0")], [0.25, 0.25, 0.0]),
+        ("ramptb", &[("valuet", c, "1, 1, 1"), ("valueb", c, "0, 0, 0")], [0.5; 3]),
+        (
+            "ramp4",
+            &[
+                ("valuetl", c, "1, 0, 0"),
+                ("valuetr", c, "0, 1, 0"),
+                ("valuebl", c, "0, 0, 1"),
+                ("valuebr", c, "0, 0, 0"),
+            ],
+            [0.375, 0.125, 0.375],
+        ),
+        ("splitlr", &[("valuel", c, "1, 0, 0"), ("valuer", c, "0, 1, 0")], [1.0, 0.0, 0.0]),
+        ("hsvtorgb", &[("in", c, "0.333333333, 1, 1")], [0.0, 1.0, 0.0]),
+        ("saturate", &[("in", c, "1, 0, 0"), ("amount", f, "0")], [0.272_228_7; 3]),
+        ("switch", &[("in1", c, "1, 0, 0"), ("in2", c, "0, 1, 0"), ("which", f, "1")], [0.0, 1.0, 0.0]),
+        ("range", &[("in", c, "@uuu"), ("inhigh", f, "0.5"), ("gamma", f, "2")], [0.5_f32.sqrt(); 3]),
+        ("screen", &[("fg", c, "@uuu"), ("bg", c, "0.5, 0.5, 0.5")], [0.625; 3]),
+    ];
+    for (category, inputs, expected) in cases {
+        assert_near(color(&one(category, inputs)), *expected, category);
+    }
+}
+
+#[test]
+fn vectors_turn_and_combine() {
+    let nodes = r#"<combine3 name="p" type="color3">
+          <input name="in1" type="float" nodename="d" /><input name="in2" type="float" nodename="x" />
+          <input name="in3" type="float" nodename="parts" output="outy" /></combine3>
+        <dotproduct name="d" type="float"><input name="in1" type="vector3" value="0.1, 0.1, 0.1" />
+          <input name="in2" type="vector3" nodename="at" /></dotproduct>
+        <position name="at" type="vector3" />
+        <rotate2d name="r" type="vector2"><input name="in" type="vector2" value="1, 0" /><input name="amount" type="float" value="-90" /></rotate2d>
+        <extract name="x" type="float"><input name="in" type="vector2" nodename="r" /><input name="index" type="integer" value="1" /></extract>
+        <separate3 name="parts" type="multioutput"><input name="in" type="vector3" nodename="n" /></separate3>
+        <crossproduct name="n" type="vector3"><input name="in1" type="vector3" value="0, 0, 1" /><input name="in2" type="vector3" value="1, 0, 0" /></crossproduct>"#;
+    assert_near(color(nodes), [0.6, 1.0, 1.0], "combine3");
+}
+
+#[test]
+fn a_normal_map_turns_the_lobe_and_the_neutral_one_keeps_it() {
+    for (value, expected) in [("0.5, 0.5, 1", [0.0, 0.0, 1.0]), ("1, 0.5, 0.5", [1.0, 0.0, 0.0])] {
+        let map = format!(
+            r#"<normalmap name="n" type="vector3"><input name="in" type="vector3" value="{value}" /></normalmap></materialx>"#
+        );
+        let input = r#"<input name="normal" type="vector3" nodename="n" />"#;
+        let text = single("dielectric_bsdf", input).replace("</materialx>", &map);
+        let Closure::Oriented { normal: Some(normal), .. } = parse(&text).bsdf else { panic!() };
+        assert_near(normal, expected, value);
+    }
+}
+
+#[test]
+fn what_does_not_vary_is_a_constant_and_out_of_range_results_are_clamped() {
+    let material = colored(&one("multiply", &[("in1", "color3", "4, 0.5, -1"), ("in2", "float", "0.5")]));
+    assert!(material.patterns.is_none());
+    assert_eq!(color_of(&material.bsdf), [1.0, 0.25, 0.0]);
+    assert!(colored(&one("multiply", &[("in1", "color3", "@uuu")])).patterns.is_some());
+}
+
+#[test]
+fn interfaces_of_nested_nodegraphs() {
+    let nodes = r#"<nodegraph name="outer"><input name="tone" type="color3" value="0.2, 0.4, 0.6" />
+          <nodegraph name="inner"><input name="half" type="color3" interfacename="tone" />
+            <multiply name="m" type="color3"><input name="in1" type="color3" interfacename="half" /><input name="in2" type="float" value="0.5" /></multiply>
+            <output name="out" type="color3" nodename="m" /></nodegraph>
+          <add name="a" type="color3"><input name="in1" type="color3" nodegraph="inner" output="out" /><input name="in2" type="color3" interfacename="tone" /></add>
+          <output name="out" type="color3" nodename="a" /></nodegraph>
+        <oren_nayar_diffuse_bsdf name="bsdf" type="BSDF"><input name="color" type="color3" nodegraph="outer" output="out" /></oren_nayar_diffuse_bsdf>"#;
+    assert_near(color_of(&parse(&document(nodes)).bsdf), [0.3, 0.6, 0.9], "nested");
+}
+
+#[test]
+fn a_document_can_define_nodes_of_its_own() {
+    let nodes = r#"<nodedef name="ND_tinted" node="tinted"><input name="tint" type="color3" value="0.5, 0.5, 0.5" />
+          <input name="strength" type="float" value="0.5" /><output name="out" type="BSDF" /></nodedef>
+        <nodegraph name="NG_tinted" nodedef="ND_tinted">
+          <multiply name="c" type="color3"><input name="in1" type="color3" interfacename="tint" /><input name="in2" type="float" interfacename="strength" /></multiply>
+          <oren_nayar_diffuse_bsdf name="d" type="BSDF"><input name="color" type="color3" nodename="c" /></oren_nayar_diffuse_bsdf>
+          <output name="out" type="BSDF" nodename="d" /></nodegraph>
+        <tinted name="bsdf" type="BSDF"><input name="tint" type="color3" value="1, 0.5, 0" /></tinted>"#;
+    assert_near(color_of(&parse(&document(nodes)).bsdf), [0.5, 0.25, 0.0], "tinted");
+}
+
+#[test]
+fn emission_opacity_and_looks() {
+    let text = r#"<materialx version="1.39">
+        <uniform_edf name="e" type="EDF"><input name="color" type="color3" value="2, 4, 6" /></uniform_edf>
+        <multiply name="half" type="EDF"><input name="in1" type="EDF" nodename="e" /><input name="in2" type="float" value="0.5" /></multiply>
+        <surface name="s" type="surfaceshader"><input name="edf" type="EDF" nodename="half" /><input name="opacity" type="float" nodename="o" /></surface>
+        <constant name="o" type="float"><input name="value" type="float" value="0.25" /></constant>
+        <surfacematerial name="m" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s" /></surfacematerial>
+        <look name="l"><materialassign name="a" material="m" geom="/car, /bike/*" /></look></materialx>"#;
+    let document = Document::parse(text, "test.mtlx").unwrap();
+    let material = document.material(None).unwrap();
+    assert_eq!((material.emission, material.opacity), ([1.0, 2.0, 3.0], 0.25));
+    let looks = document.looks().unwrap();
+    assert_eq!(looks[0].material("/bike/wheel/rim"), Some("m"));
+    assert_eq!(looks[0].material("/boat"), None);
+}
+
+#[test]
+fn pictures_are_looked_up_in_their_colour_space() {
+    let folder = tempfile::tempdir().unwrap();
+    image::RgbImage::from_pixel(4, 4, image::Rgb([255, 188, 0]))
+        .save(folder.path().join("flat.png"))
+        .unwrap();
+    let nodes = r#"<oren_nayar_diffuse_bsdf name="bsdf" type="BSDF"><input name="color" type="color3" nodename="p" /></oren_nayar_diffuse_bsdf>
+        <image name="p" type="color3" fileprefix="./"><input name="file" type="filename" value="flat.png" colorspace="srgb_texture" /></image>"#;
+    let path = folder.path().join("m.mtlx");
+    std::fs::write(&path, document(nodes)).unwrap();
+    let material = Document::load(&path).unwrap().material(None).unwrap();
+    let here = material.patterns.unwrap().at(&ShadingPoint::default());
+    let green = ((188.0_f32 / 255.0 + 0.055) / 1.055).powf(2.4);
+    assert_near(color_of(&here.bsdf), [1.0, green, 0.0], "flat.png");
+}
+
+#[test]
+fn includes_stay_under_the_search_path() {
+    let folder = tempfile::tempdir().unwrap();
+    let (inside, outside) = (folder.path().join("a/b"), folder.path().join("shared"));
+    for folder in [&inside, &outside] {
+        std::fs::create_dir_all(folder).unwrap();
+    }
+    let included = r#"<materialx version="1.39"><dielectric_bsdf name="bsdf" type="BSDF" /></materialx>"#;
+    std::fs::write(inside.join("here.mtlx"), included).unwrap();
+    std::fs::write(outside.join("there.mtlx"), included).unwrap();
+    let main = |href: &str| {
+        let include = format!("<xi:include xmlns:xi=\"http://www.w3.org/2001/XInclude\" href=\"{href}\" />");
+        let path = inside.join("main.mtlx");
+        std::fs::write(&path, document(&include)).unwrap();
+        path
+    };
+    assert!(Document::load(main("here.mtlx")).unwrap().material(None).is_ok());
+    for href in ["../../shared/there.mtlx", outside.join("there.mtlx").to_str().unwrap()] {
+        let message = Document::load(main(href)).unwrap_err().to_string();
+        assert!(message.contains("is outside the document's folder"), "{message}");
+    }
+    let library = Arc::new(Library::load(SearchPath::new([outside.clone()])).unwrap());
+    assert!(Document::load_with(main("there.mtlx"), &library).unwrap().material(None).is_ok());
+    let message = Document::load(main("main.mtlx")).unwrap_err().to_string();
+    assert!(message.contains("feeds itself through \"main.mtlx\""), "{message}");
+}

@@ -1,0 +1,41 @@
+//! A sphere in direct light, to be compared with other renderers' pictures of it.
+//!
+//! `cargo run --release -p catseye-render --example direct_sphere -- MATERIAL.mtlx PIXELS sphere.exr`
+//!
+//! The unit sphere around the origin is seen from (0, 0, 5) with a field of view of 26 degrees.
+//! Light of irradiance 3 comes from a direction 3 degrees to the right of the view's axis.
+
+use std::path::Path;
+
+use catseye::Model;
+use catseye_materialx::Document;
+use catseye_render::light::DistantLight;
+use catseye_render::{Camera, Filter, RenderSettings, SceneBuilder, Sphere, render, write_exr};
+use glam::Vec3;
+
+fn main() -> Result<(), Box<dyn std::error::Error>> {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let [material, pixels, output] = arguments.as_slice() else {
+        return Err("usage: direct_sphere MATERIAL.mtlx PIXELS OUTPUT.exr".into());
+    };
+    let pixels = pixels.parse()?;
+
+    let camera = Camera::perspective(Vec3::Z * 5.0, Vec3::ZERO, Vec3::Y, 26.0_f32.to_radians());
+    let mut scene = SceneBuilder::new(camera);
+    let material = scene.materialx(&Document::load(material)?.material(None)?, Model::Reciprocal)?;
+    scene.sphere(Sphere { centre: Vec3::ZERO, radius: 1.0 }, material);
+    let angle = 3.0_f32.to_radians();
+    scene.light(DistantLight::new(Vec3::new(angle.sin(), 0.0, angle.cos()), 1e-4, Vec3::splat(3.0)));
+
+    let (spp, filter) = (64, Filter::pixel());
+    let settings = RenderSettings {
+        width: pixels,
+        height: pixels,
+        spp,
+        max_depth: 1,
+        filter,
+        ..RenderSettings::default()
+    };
+    write_exr(&render(&scene.build()?, &settings, &|_| ())?, Path::new(output))?;
+    Ok(())
+}
