@@ -31,6 +31,9 @@ fn python() -> Option<PathBuf> {
     let wanted = std::fs::read_to_string(&requirements).unwrap();
     let folder = target().join("materialx-venv");
     let (python, stamp) = (folder.join("bin/python"), folder.join("requirements.txt"));
+    // The tests run at once, in processes of their own: the first one makes it, the others wait.
+    let lock = std::fs::File::create(target().join("materialx-venv.lock")).unwrap();
+    lock.lock().unwrap();
     if std::fs::read_to_string(&stamp).is_ok_and(|installed| installed == wanted) {
         return Some(python);
     }
