@@ -1,11 +1,14 @@
 //! Values of inputs: read as their type, in linear light, within their range.
 
+use catseye::{ParamError, Params};
+
 use crate::{
     element::Element,
     error::{Error, listed, quoted},
     graph::{Feed, Graph, NodeRef},
     nodedef::{Accepts, InputDef, InputDefault},
     pattern::{signature, signatures},
+    template::as_written,
     value::{COLOR_SPACES, ColorSpace, Type, Value},
 };
 
@@ -167,11 +170,30 @@ fn check_range(node: &Element, child: &Element, input: &InputDef, value: Value<'
         let message = format!("{} is {value}, {refusal}", input.name);
         return Err(Error::OutOfRange { at: node.place_of(child), message });
     }
+    if node.tag() == "retro_reflective_bsdf" {
+        check_params(node, child, input, value)?;
+    }
     let is_default = matches!(input.default, InputDefault::Value(default) if default == value);
     match input.accepts {
         Accepts::DefaultOnly if !is_default => Err(default_only(node, child, input)),
         _ => Ok(()),
     }
+}
+
+/// Asks the BSDF itself about one of its parameters.
+fn check_params(node: &Element, child: &Element, input: &InputDef, value: Value<'_>) -> Result<(), Error> {
+    let mut params = Params::default();
+    match (input.name, value) {
+        ("roughness_u", Value::Float(x)) => params.roughness_u = x,
+        // A negative one stands for the default.
+        ("roughness_v", Value::Float(x)) if x >= 0.0 => params.roughness_v = Some(x),
+        ("tint", Value::Color3(color)) => params.tint = color,
+        ("multiscatter_tint", Value::Color3(color)) => params.multiscatter_tint = color,
+        _ => {}
+    }
+    let error =
+        |cause: ParamError| Error::OutOfRange { at: node.place_of(child), message: cause.to_string() };
+    as_written(&params).validate().map_err(error)
 }
 
 fn default_only(node: &Element, child: &Element, input: &InputDef) -> Error {

@@ -379,7 +379,7 @@ fn unit(direction: [f32; 3]) -> Option<[f32; 3]> {
 }
 
 /// The parameters to more digits, so that a refusal shows 1.1 and not 1.100000023841858, the f32 next to it.
-fn as_written(params: &Params<f32>) -> Params<f64> {
+pub(crate) fn as_written(params: &Params<f32>) -> Params<f64> {
     let written = |x: f32| x.to_string().parse().unwrap_or(f64::from(x));
     Params {
         roughness_u: written(params.roughness_u),

@@ -21,6 +21,8 @@ const FAULTY: &str = r#"<materialx version="1.39">
 <nodegraph name="g"><sin name="s" type="float"><input name="in" type="float" interfacename="gone" /></sin>
 <output name="out" type="float" nodename="t" /></nodegraph>
 <look name="l"><materialassign name="x" material="none" geom="/" /></look>
+<retro_reflective_bsdf name="r" type="BSDF"><input name="roughness_u" type="float" value="-3" />
+<input name="roughness_v" type="float" value="-1" /><input name="tint" type="color3" value="0, 2, 0" /></retro_reflective_bsdf>
 </materialx>"#;
 
 #[test]
@@ -41,6 +43,8 @@ fn all_problems_at_once() {
         ("f.mtlx:17:48: ", "interfacename=\"gone\", which doesn't exist"),
         ("f.mtlx:18:1: ", "nodename=\"t\", which doesn't exist"),
         ("f.mtlx:19:16: ", "material=\"none\", which doesn't exist"),
+        ("f.mtlx:20:45: ", "roughness_u is -3, outside [0, inf]"),
+        ("f.mtlx:21:53: ", "tint[1] is 2, outside [0, 1]"),
     ];
     for (place, message) in expected {
         let found = lines.iter().any(|line| line.starts_with(place) && line.contains(message));
