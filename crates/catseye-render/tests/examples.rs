@@ -1,7 +1,7 @@
 //! Promise: MaterialX's own example materials load and render; what doesn't says why.
 //!
-//! Runs where `MATERIALX_SEARCH_PATH` names a checkout of MaterialX (with `libraries` and `resources`); fails without one
-//! where `CATSEYE_REQUIRE=all` is set. `--nocapture` prints the table.
+//! Runs where `MATERIALX_SEARCH_PATH` names a checkout of MaterialX (with `libraries` and `resources`). No package brings
+//! one, so `CATSEYE_REQUIRE=all`, which asks for what can be installed, does not ask for it. `--nocapture` prints the table.
 
 use std::{
     fs,
@@ -41,8 +41,6 @@ fn materialx_examples_load_and_render() {
     let search_path = SearchPath::from_env();
     let examples = |folder: &PathBuf| folder.join("resources/Materials/Examples");
     let Some(root) = search_path.folders().iter().map(examples).find(|folder| folder.is_dir()) else {
-        let required = std::env::var("CATSEYE_REQUIRE").is_ok_and(|value| value == "all");
-        assert!(!required, "MATERIALX_SEARCH_PATH names no checkout of MaterialX");
         eprintln!("skipped: MATERIALX_SEARCH_PATH names no checkout of MaterialX");
         return;
     };
