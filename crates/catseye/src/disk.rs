@@ -31,6 +31,13 @@ pub fn width<T: Real>(roughness: T) -> T {
     T::ONE / (T::ONE + T::TWO / (roughness * roughness)).sqrt()
 }
 
+/// The widths for both roughnesses, or `None` where they make a Dirac lobe; a single one below the threshold is raised.
+pub(crate) fn widths<T: Real>(roughness: [T; 2]) -> Option<[T; 2]> {
+    let threshold = T::from_f64(DIRAC_ROUGHNESS);
+    let dirac = roughness.iter().all(|&r| r < threshold);
+    (!dirac).then(|| roughness.map(|r| width(r.greater(threshold))))
+}
+
 /// The anisotropic disk distribution of Edwards et al. 2006, Eq. 26 and 32 with R = 1.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Disk<T> {
@@ -52,13 +59,8 @@ pub(crate) struct DiskSample<T> {
 
 impl<T: Real> Disk<T> {
     /// The distribution for both roughnesses, or `None` where they make a Dirac lobe.
-    pub(crate) fn new([roughness_u, roughness_v]: [T; 2]) -> Option<Self> {
-        let threshold = T::from_f64(DIRAC_ROUGHNESS);
-        if roughness_u < threshold && roughness_v < threshold {
-            return None;
-        }
-        let m_u = width(roughness_u.greater(threshold));
-        let m_v = width(roughness_v.greater(threshold));
+    pub(crate) fn new(roughness: [T; 2]) -> Option<Self> {
+        let [m_u, m_v] = widths(roughness)?;
         let norm = T::from_f64(0.5 * core::f64::consts::FRAC_1_PI) / (m_u * m_v);
         Some(Self { m_u, m_v, inv_m_u: T::ONE / m_u, inv_m_v: T::ONE / m_v, norm })
     }
@@ -89,6 +91,12 @@ impl<T: Real> Disk<T> {
             (ex * ex + ey * ey) / d2.greater(tiny)
         };
         d2.log2_power(exponent, part.greater(tiny), whole).exp2_falling()
+    }
+
+    /// The density `pdf_ss = B z_o / (z_i (z_o+z_i))` of the drawn direction, given the power for the pair.
+    #[inline(always)]
+    pub(crate) fn density(&self, power: T, wo: Vec3<T>, wi: Vec3<T>) -> T {
+        power * (self.norm * wo.z / (wi.z * (wo.z + wi.z)))
     }
 
     /// Draws an offset d from the distribution and reflects `wo` about the half vector `(o_xy + d, z_o)`.

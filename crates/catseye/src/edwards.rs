@@ -32,7 +32,7 @@ impl<T: Real> Lobe<T> for Edwards<T> {
         if !above_horizon(wo, wi) {
             return ([T::ZERO; 3], T::ZERO);
         }
-        let pdf = disk.power::<false>(wo, wi) * (disk.norm * wo.z / (wi.z * (wo.z + wi.z)));
+        let pdf = disk.density(disk.power::<false>(wo, wi), wo, wi);
         (self.tint.map(|t| t * pdf / wi.z), pdf)
     }
 
@@ -48,7 +48,7 @@ impl<T: Real> Lobe<T> for Edwards<T> {
         if !above_horizon(wo, drawn.wi) {
             return None;
         }
-        let pdf = drawn.power * (disk.norm * wo.z / (drawn.wi.z * (wo.z + drawn.wi.z)));
+        let pdf = disk.density(drawn.power, wo, drawn.wi);
         Some(Sample { wi: drawn.wi, weight: self.tint, pdf, lobe: LobeKind::Single })
     }
 

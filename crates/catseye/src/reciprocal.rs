@@ -79,9 +79,9 @@ impl<T: Real> Reciprocal<T> {
         let energy = self.multiple + (self.single - self.multiple) * kept;
         // With as much tint as compensation, base = 0 and slope = 1 make f cos itself the density of what is kept.
         // More tint keeps some of the rejected samples, less tint rejects some of the accepted ones.
-        let (lesser, greater) = (self.single.lesser(self.multiple), self.single.greater(self.multiple));
+        let lesser = self.single.lesser(self.multiple);
         let slope = (lesser / energy.greater(T::from_f64(1e-30))).lesser(T::ONE);
-        let less_tint = self.single < greater;
+        let less_tint = self.single < self.multiple;
         let base = if less_tint { T::ZERO } else { T::ONE - slope };
         let rejected = if less_tint { T::ONE - slope } else { T::ZERO };
         Split { base, slope, multiple: rejected + slope * loss }
@@ -149,7 +149,7 @@ impl<T: Real> Reciprocal<T> {
             if !above_horizon(wo, drawn.wi) {
                 return None;
             }
-            let pdf = drawn.power * (disk.norm * wo.z / (drawn.wi.z * (wo.z + drawn.wi.z)));
+            let pdf = disk.density(drawn.power, wo, drawn.wi);
             let weight = self.tint.map(|t| t * (ratio * ratio * ratio));
             return Some(Sample { wi: drawn.wi, weight, pdf, lobe });
         }

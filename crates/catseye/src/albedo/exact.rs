@@ -5,8 +5,8 @@
 use core::f64::consts::{FRAC_PI_2, PI};
 
 use super::gauss::Gauss;
-use crate::disk::{DIRAC_ROUGHNESS, above_horizon, is_above_horizon};
-use crate::{Real, Vec3, width};
+use crate::disk::{above_horizon, is_above_horizon, widths};
+use crate::{Real, Vec3};
 
 /// The quadrature rules, prepared once for many evaluations.
 #[derive(Clone, Debug)]
@@ -110,12 +110,6 @@ fn atan2(y: f64, x: f64) -> f64 {
     return y.atan2(x);
     #[cfg(not(feature = "std"))]
     return libm::atan2(y, x);
-}
-
-/// The lobe's widths, or `None` where it is a Dirac distribution.
-fn widths([roughness_u, roughness_v]: [f64; 2]) -> Option<[f64; 2]> {
-    let dirac = roughness_u < DIRAC_ROUGHNESS && roughness_v < DIRAC_ROUGHNESS;
-    (!dirac).then(|| [roughness_u, roughness_v].map(|r| width(r.greater(DIRAC_ROUGHNESS))))
 }
 
 /// Directional albedo rho(o) of single scattering for the roughness pair, each in `[0, inf]`; error below 1e-9.

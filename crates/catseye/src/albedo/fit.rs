@@ -28,7 +28,7 @@ pub struct Fit<T, const A: usize, const B: usize, const C: usize, const D: usize
     /// `e^2 = e_x x^2 + e_y y^2 + e_0` in the lobe's own axes.
     e_x: T,
     e_y: T,
-    pub(crate) e_0: T,
+    e_0: T,
     /// `w = w_x x^2 + w_y y^2`: only the narrower axis has a factor.
     w_x: T,
     w_y: T,
