@@ -1,0 +1,154 @@
+//! Fits: from photometric values to the lobes of a material.
+//!
+//! A model of 1 to 3 lobes with entrance factors ([`Form`]) is fitted to the logarithms of the values by
+//! Levenberg and Marquardt's method. Every number is kept within bounds, the albedo of every direction at 1 or less, and a
+//! number that the data leave open near a weak prior, with a warning. Where a table's worst row is beyond the tolerance
+//! its weight grows until the worst error is as small as it gets (Lawson's algorithm). Without a wish, the form with the
+//! fewest numbers that meets the tolerance is chosen.
+
+mod error;
+mod form;
+mod observation;
+mod problem;
+mod select;
+mod shape;
+mod solve;
+mod uncertainty;
+
+pub use error::FitError;
+pub use form::{EntranceKind, Form, Meaning};
+pub use observation::{Aim, Observation, View};
+pub use select::MAX_LOBES;
+pub use shape::ShapeBound;
+pub use uncertainty::Estimate;
+
+use catseye::Model;
+
+use crate::sheeting::{EntranceForm, Sheeting};
+use solve::{Solution, TABLE_ROWS};
+
+/// The worst error of a row that a fit may have: values on data sheets are not better than that.
+pub const TOLERANCE: f64 = 0.05;
+
+/// What a fit may do.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FitOptions {
+    /// Which lobe model.
+    pub model: Model,
+    /// Lobes, 1 to [`MAX_LOBES`]; `None` chooses.
+    pub lobes: Option<usize>,
+    /// How the strength depends on the entrance angle; `None` chooses.
+    pub entrance: Option<EntranceKind>,
+    /// The roughness of a single lobe where the data can't tell it.
+    pub roughness: Option<f64>,
+    /// Whether the model has a diffuse base.
+    pub diffuse: bool,
+    /// Refractive index of a clear coat over the lobes, if there is one.
+    pub coat_ior: Option<f64>,
+    /// Which cosine the entrance factors see.
+    pub entrance_form: EntranceForm,
+    /// The worst error that is accepted, as a share of the value.
+    pub tolerance: f64,
+    /// Greatest channel of the material's colour over its luminance: energy is conserved in each channel.
+    pub channel_peak: f64,
+}
+
+impl Default for FitOptions {
+    fn default() -> Self {
+        Self {
+            model: Model::Reciprocal,
+            lobes: None,
+            entrance: None,
+            roughness: None,
+            diffuse: false,
+            coat_ior: None,
+            entrance_form: EntranceForm::View,
+            tolerance: TOLERANCE,
+            channel_peak: 1.0,
+        }
+    }
+}
+
+/// A form that was tried.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trial {
+    /// The form.
+    pub form: Form,
+    /// Its free numbers.
+    pub unknowns: usize,
+    /// The greatest error of a row, as a share of its value.
+    pub worst: f64,
+    /// Root mean square of the rows' errors, as logarithms.
+    pub rms: f64,
+}
+
+/// A fitted material and how good it is.
+#[derive(Clone, Debug)]
+pub struct Fit {
+    /// The form that was chosen.
+    pub form: Form,
+    /// The fitted material.
+    pub sheeting: Sheeting,
+    /// The fitted numbers with their uncertainties.
+    pub estimates: Vec<Estimate>,
+    /// Model over value for each observation.
+    pub ratios: Vec<f64>,
+    /// The greatest error of a row, as a share of its value; for a bound, by how much it is broken.
+    pub worst: f64,
+    /// Root mean square of the rows' errors, as logarithms.
+    pub rms: f64,
+    /// Whether every row is within the tolerance; of many rows (measurements) their root mean square.
+    pub acceptable: bool,
+    /// What no sum of lobes can do better, where the table has such rows.
+    pub shape: Option<ShapeBound>,
+    /// The forms that were tried, in order.
+    pub trials: Vec<Trial>,
+    /// What the reader should know.
+    pub warnings: Vec<String>,
+}
+
+/// Fits a material to observations.
+///
+/// # Errors
+/// Data that can't determine any form, values that aren't positive numbers, options out of range.
+pub fn fit(observations: &[Observation], options: &FitOptions) -> Result<Fit, FitError> {
+    error::check(observations, options)?;
+    let span = select::Span::of(observations);
+    span.check(options)?;
+    let (solution, trials) = select::choose(observations, options, &span)?;
+    let estimates = uncertainty::estimates(&solution, observations, options);
+    let mut warnings = span.warnings(options, observations.len(), solution.unknowns());
+    warnings.extend(estimates.iter().filter_map(Estimate::warning));
+    let shape = if options.model == Model::Reciprocal { shape::shape_bound(observations) } else { None };
+    Ok(Fit {
+        form: solution.form,
+        estimates,
+        ratios: solution.log_ratios.iter().map(|log| log.exp()).collect(),
+        worst: solution.worst,
+        rms: solution.rms,
+        acceptable: is_acceptable(&solution, observations.len(), options.tolerance),
+        shape: shape.filter(|bound| bound.error > options.tolerance),
+        trials,
+        warnings,
+        sheeting: solution.sheeting,
+    })
+}
+
+fn is_acceptable(solution: &Solution, rows: usize, tolerance: f64) -> bool {
+    let error = if rows > TABLE_ROWS { solution.rms.exp_m1() } else { solution.worst };
+    error <= tolerance
+}
+
+impl Fit {
+    /// The greatest difference, as a share of the value, that the reciprocal form of the entrance factors makes in an
+    /// observation: what it costs that a node graph knows only the direction to the viewer.
+    #[must_use]
+    pub fn cost_of_view_form(&self, observations: &[Observation]) -> f64 {
+        let with = |form| {
+            let sheeting = Sheeting { form, ..self.sheeting.clone() };
+            problem::log_ratios(&sheeting, observations).unwrap_or_default()
+        };
+        let (view, reciprocal) = (with(EntranceForm::View), with(EntranceForm::Reciprocal));
+        view.iter().zip(&reciprocal).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max).exp_m1()
+    }
+}

@@ -1,0 +1,264 @@
+//! The least-squares problem: logarithms of model over value, with bounds and the conservation of energy.
+
+use catseye::{AnyLobe, Lobe as _};
+use levenberg_marquardt::LeastSquaresProblem;
+use nalgebra::{DMatrix, DVector, Dyn, Owned};
+
+use super::form::{Form, Meaning, Unknown};
+use super::observation::{Aim, Observation, View};
+use crate::entrance::LogGradient;
+use crate::sheeting::{Sheeting, unit_lobe};
+
+/// Step of the logarithm of a roughness in the difference quotients: their error is below 1e-8.
+const ROUGHNESS_STEP: f64 = 1e-4;
+/// Weight of the priors beside a row that is a factor of e off: they decide only what no row decides.
+const PRIOR_WEIGHT: f64 = 1e-3;
+/// Weight of an albedo above 1.
+const ENERGY_WEIGHT: f64 = 100.0;
+/// Weight of a bound that is broken, and of one that is met with something to spare.
+const BROKEN_WEIGHT: f64 = 10.0;
+const SPARE_WEIGHT: f64 = 0.2;
+/// The model's values are kept above this share of the observed one, so that logarithms stay finite.
+const LEAST_RATIO: f64 = 1e-12;
+
+/// A form, the data, and the point where the model is.
+#[derive(Clone, Debug)]
+pub(crate) struct Problem<'a> {
+    form: Form,
+    unknowns: Vec<Unknown>,
+    observations: &'a [Observation],
+    /// The rows' weights.
+    pub(crate) weights: Vec<f64>,
+    /// Greatest channel of the tint over its luminance: what the energy in that channel is.
+    channel_peak: f64,
+    /// The vector on the unbounded scale.
+    free: DVector<f64>,
+}
+
+/// What a lobe sends along the views of an observation, without its strength and entrance factor.
+struct UnitLobes {
+    middle: AnyLobe<f64>,
+    /// With the roughness a step up and down, for each axis or both.
+    stepped: Vec<(Option<usize>, [AnyLobe<f64>; 2])>,
+}
+
+impl<'a> Problem<'a> {
+    pub(crate) fn new(form: Form, observations: &'a [Observation], channel_peak: f64, start: &[f64]) -> Self {
+        let unknowns = form.unknowns();
+        let free = unknowns.iter().zip(start).map(|(unknown, &x)| unbound(unknown.bounds, x));
+        let free = DVector::from_iterator(unknowns.len(), free);
+        Self { form, observations, weights: vec![1.0; observations.len()], channel_peak, free, unknowns }
+    }
+
+    /// The vector within its bounds.
+    pub(crate) fn x(&self) -> Vec<f64> {
+        self.unknowns.iter().zip(&self.free).map(|(unknown, &free)| bind(unknown.bounds, free)).collect()
+    }
+
+    /// The sheeting at the present point.
+    pub(crate) fn sheeting(&self) -> Sheeting {
+        self.form.sheeting(&self.unknowns, &self.x())
+    }
+
+    /// Logarithms of model over value, not weighted.
+    pub(crate) fn log_ratios(&self) -> Option<Vec<f64>> {
+        log_ratios(&self.sheeting(), self.observations)
+    }
+
+    /// How much an observation's logarithm counts.
+    fn weight(&self, row: usize, log_ratio: f64) -> f64 {
+        self.weights[row] * aim_weight(self.observations[row].aim, log_ratio)
+    }
+
+    /// Rows of the residuals: the observations, the energy, the priors.
+    fn rows(&self) -> usize {
+        self.observations.len() + 1 + self.unknowns.len()
+    }
+
+    /// The rows' derivatives by the numbers within their bounds, not weighted.
+    pub(crate) fn log_jacobian(&self) -> Option<DMatrix<f64>> {
+        let sheeting = self.sheeting();
+        let lobes = sheeting.lobes.iter().enumerate();
+        let lobes: Vec<_> = lobes.map(|(i, lobe)| self.unit_lobes(i, lobe.roughness)).collect::<Option<_>>()?;
+        let mut jacobian = DMatrix::zeros(self.observations.len(), self.unknowns.len());
+        let mut row = vec![0.0; self.unknowns.len()];
+        for (j, observation) in self.observations.iter().enumerate() {
+            row.fill(0.0);
+            let mut total = 0.0;
+            for view in &observation.views {
+                total += self.accumulate(&sheeting, &lobes, view, &mut row);
+            }
+            let total = total.max(observation.value * LEAST_RATIO);
+            for (k, derivative) in row.iter().enumerate() {
+                jacobian[(j, k)] = derivative / total;
+            }
+        }
+        Some(jacobian)
+    }
+
+    fn unit_lobes(&self, lobe: usize, roughness: [f64; 2]) -> Option<UnitLobes> {
+        let with = |axis: Option<usize>, step: f64| {
+            let moved = |i: usize| if axis.is_none_or(|axis| axis == i) { step.exp() } else { 1.0 };
+            unit_lobe(self.form.model, [roughness[0] * moved(0), roughness[1] * moved(1)]).ok()
+        };
+        let axes = self.unknowns.iter().filter_map(|unknown| match unknown.meaning {
+            Meaning::Roughness(i, axis) if i == lobe => Some(axis),
+            _ => None,
+        });
+        let stepped = axes.map(|axis| {
+            let pair = [with(axis, ROUGHNESS_STEP)?, with(axis, -ROUGHNESS_STEP)?];
+            Some((axis, pair))
+        });
+        Some(UnitLobes { middle: with(None, 0.0)?, stepped: stepped.collect::<Option<_>>()? })
+    }
+
+    /// Adds a view's derivatives to `row`; returns its value.
+    fn accumulate(&self, sheeting: &Sheeting, lobes: &[UnitLobes], view: &View, row: &mut [f64]) -> f64 {
+        let View { wo, wi, factor } = *view;
+        let factor = factor * sheeting.transmitted(wo);
+        let cosine = sheeting.entrance_cosine(wo, wi);
+        let mut total = 0.0;
+        for (i, (own, lobe)) in sheeting.lobes.iter().zip(lobes).enumerate() {
+            let gradient = own.entrance.log_gradient(cosine);
+            let common = factor * own.strength * gradient.value;
+            let value = common * lobe.middle.eval(wo, wi)[0];
+            total += value;
+            for (unknown, slot) in self.unknowns.iter().zip(&mut *row) {
+                if unknown.meaning.concerns(i) {
+                    *slot += match unknown.meaning {
+                        Meaning::Roughness(_, axis) => common * lobe.slope(axis, view),
+                        meaning => value * by(meaning, &gradient),
+                    };
+                }
+            }
+        }
+        let base = factor * sheeting.diffuse / core::f64::consts::PI;
+        for (unknown, slot) in self.unknowns.iter().zip(row) {
+            if unknown.meaning == Meaning::Diffuse {
+                *slot += base;
+            }
+        }
+        total + base
+    }
+
+    /// By how much the albedo may exceed 1, in the channel with the most of it.
+    fn energy_excess(&self) -> f64 {
+        excess(&self.sheeting(), self.channel_peak)
+    }
+}
+
+impl UnitLobes {
+    /// The derivative of the BSDF by the logarithm of the roughness.
+    fn slope(&self, axis: Option<usize>, view: &View) -> f64 {
+        let found = self.stepped.iter().find(|(of, _)| *of == axis);
+        let difference = |[up, down]: &[AnyLobe<f64>; 2]| {
+            (up.eval(view.wo, view.wi)[0] - down.eval(view.wo, view.wi)[0]) / (2.0 * ROUGHNESS_STEP)
+        };
+        found.map_or(0.0, |(_, pair)| difference(pair))
+    }
+}
+
+/// The derivative of a lobe's logarithm by a number that is not its roughness.
+fn by(meaning: Meaning, gradient: &LogGradient) -> f64 {
+    match meaning {
+        Meaning::Power(_) => gradient.by_power,
+        Meaning::Position(_) => gradient.by_log_position,
+        Meaning::Steepness(_) => gradient.by_log_steepness,
+        _ => 1.0,
+    }
+}
+
+/// The logarithms of model over value; `None` where a roughness is out of range.
+pub(crate) fn log_ratios(sheeting: &Sheeting, observations: &[Observation]) -> Option<Vec<f64>> {
+    let prepared = sheeting.prepare().ok()?;
+    let ratio = |observation: &Observation| {
+        let views = observation.views.iter();
+        let value: f64 = views.map(|view| view.factor * prepared.eval(view.wo, view.wi)).sum();
+        (value / observation.value).max(LEAST_RATIO).ln()
+    };
+    Some(observations.iter().map(ratio).collect())
+}
+
+/// By how much the albedo may exceed 1, in the channel with the most of it.
+pub(crate) fn excess(sheeting: &Sheeting, channel_peak: f64) -> f64 {
+    (sheeting.albedo_bound() * channel_peak - 1.0).max(0.0)
+}
+
+fn aim_weight(aim: Aim, log_ratio: f64) -> f64 {
+    match (aim, log_ratio >= 0.0) {
+        (Aim::Equal, _) => 1.0,
+        (Aim::AtLeast, true) | (Aim::AtMost, false) => SPARE_WEIGHT,
+        (Aim::AtLeast, false) | (Aim::AtMost, true) => BROKEN_WEIGHT,
+    }
+}
+
+impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
+    type ResidualStorage = Owned<f64, Dyn>;
+    type JacobianStorage = Owned<f64, Dyn, Dyn>;
+    type ParameterStorage = Owned<f64, Dyn>;
+
+    fn set_params(&mut self, x: &DVector<f64>) {
+        self.free.copy_from(x);
+    }
+
+    fn params(&self) -> DVector<f64> {
+        self.free.clone()
+    }
+
+    fn residuals(&self) -> Option<DVector<f64>> {
+        let logs = self.log_ratios()?;
+        let data = logs.iter().enumerate().map(|(row, &log)| self.weight(row, log) * log);
+        let energy = ENERGY_WEIGHT * self.energy_excess();
+        let x = self.x();
+        let surprise = |(unknown, x): (&Unknown, &f64)| PRIOR_WEIGHT * (x - unknown.prior[0]) / unknown.prior[1];
+        let priors = self.unknowns.iter().zip(&x).map(surprise);
+        Some(DVector::from_iterator(self.rows(), data.chain([energy]).chain(priors)))
+    }
+
+    fn jacobian(&self) -> Option<DMatrix<f64>> {
+        let data = self.log_jacobian()?;
+        let logs = self.log_ratios()?;
+        let (rows, columns) = data.shape();
+        let mut jacobian = DMatrix::zeros(self.rows(), columns);
+        for (k, unknown) in self.unknowns.iter().enumerate() {
+            let slope = bind_slope(unknown.bounds, self.free[k]);
+            for j in 0..rows {
+                jacobian[(j, k)] = self.weight(j, logs[j]) * data[(j, k)] * slope;
+            }
+            jacobian[(rows, k)] = ENERGY_WEIGHT * self.energy_slope(k);
+            jacobian[(rows + 1 + k, k)] = PRIOR_WEIGHT / unknown.prior[1] * slope;
+        }
+        Some(jacobian)
+    }
+}
+
+impl Problem<'_> {
+    /// The energy's derivative by a free number: one-sided, as it is 0 where the energy is conserved.
+    fn energy_slope(&self, k: usize) -> f64 {
+        const STEP: f64 = 1e-6;
+        let here = self.energy_excess();
+        if here == 0.0 {
+            return 0.0;
+        }
+        let mut moved = self.clone();
+        moved.free[k] += STEP;
+        (moved.energy_excess() - here) / STEP
+    }
+}
+
+/// The number within its bounds, from the unbounded scale.
+fn bind([low, high]: [f64; 2], free: f64) -> f64 {
+    low + (high - low) / (1.0 + (-free).exp())
+}
+
+fn bind_slope([low, high]: [f64; 2], free: f64) -> f64 {
+    let share = 1.0 / (1.0 + (-free).exp());
+    (high - low) * share * (1.0 - share)
+}
+
+/// The inverse of [`bind`], a little inside the bounds, where the slope is not 0.
+fn unbound([low, high]: [f64; 2], x: f64) -> f64 {
+    const INSIDE: f64 = 1e-3;
+    let share = ((x - low) / (high - low)).clamp(INSIDE, 1.0 - INSIDE);
+    (share / (1.0 - share)).ln()
+}

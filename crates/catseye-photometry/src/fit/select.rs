@@ -1,0 +1,158 @@
+//! Which forms are tried, and which one is chosen.
+
+use catseye::Vec3;
+
+use super::form::{EntranceKind, Form};
+use super::observation::Observation;
+use super::solve::{Solution, TABLE_ROWS, solve};
+use super::{FitError, FitOptions, Trial, is_acceptable};
+
+/// Most lobes of a fit.
+pub const MAX_LOBES: usize = 3;
+/// Angles that differ by less than this are one: a hundredth of a degree.
+const SAME_ANGLE: f64 = 1.8e-4;
+
+/// Which angles the data cover.
+#[derive(Clone, Debug)]
+pub(crate) struct Span {
+    observation: Vec<f64>,
+    entrance: Vec<f64>,
+    /// Whether the offset from the retro direction points more than one way: the sample was turned.
+    turned: bool,
+}
+
+impl Span {
+    pub(crate) fn of(observations: &[Observation]) -> Self {
+        // An aperture's views surround the direction that is meant.
+        let centre = |observation: &Observation| {
+            let mean = |of: fn(&super::View) -> Vec3<f64>| {
+                let sum = observation.views.iter().map(of).fold(Vec3::default(), |a: Vec3<f64>, b| {
+                    Vec3::new(a.x + b.x, a.y + b.y, a.z + b.z)
+                });
+                sum.normalized()
+            };
+            (mean(|view| view.wo), mean(|view| view.wi))
+        };
+        let pairs: Vec<_> = observations.iter().map(centre).collect();
+        let chord = |(a, b): &(Vec3<f64>, Vec3<f64>)| {
+            let d = Vec3::new(a.x - b.x, a.y - b.y, a.z - b.z);
+            2.0 * (0.5 * d.dot(d).sqrt()).min(1.0).asin()
+        };
+        let entrance = |(_, wi): &(Vec3<f64>, Vec3<f64>)| wi.z.clamp(-1.0, 1.0).acos();
+        let plane = |(wo, wi): &(Vec3<f64>, Vec3<f64>)| {
+            let [x, y] = [wo.z * wi.x - wi.z * wo.x, wo.z * wi.y - wi.z * wo.y];
+            y.atan2(x).rem_euclid(core::f64::consts::PI)
+        };
+        let planes = distinct(pairs.iter().map(plane));
+        Self {
+            observation: distinct(pairs.iter().map(chord)),
+            entrance: distinct(pairs.iter().map(entrance)),
+            turned: planes.len() > 1,
+        }
+    }
+
+    pub(crate) fn check(&self, options: &FitOptions) -> Result<(), FitError> {
+        match self.observation[..] {
+            [only] if options.roughness.is_none() => {
+                Err(FitError::OneObservationAngle { angle_deg: only.to_degrees() })
+            }
+            _ => Ok(()),
+        }
+    }
+
+    /// What the data leave open whatever the form.
+    pub(crate) fn warnings(&self, options: &FitOptions, rows: usize, unknowns: usize) -> Vec<String> {
+        let mut warnings = Vec::new();
+        if let [only] = self.entrance[..] {
+            let angle_deg = only.to_degrees();
+            warnings.push(format!(
+                "all values are at the entrance angle {angle_deg:.1} deg: how the material loses light with that \
+                 angle is not determined, and not modelled"
+            ));
+        }
+        if unknowns > rows {
+            warnings.push(format!(
+                "{rows} values can't determine {unknowns} numbers: another material fits them as well"
+            ));
+        }
+        if !options.diffuse {
+            warnings.push(
+                "no luminance factor is given: the material has no diffuse base and is black by day".to_owned(),
+            );
+        }
+        warnings
+    }
+
+    /// The forms to try, those with fewer numbers first.
+    fn forms(&self, options: &FitOptions) -> Vec<Form> {
+        let lobes = options.lobes.or(options.roughness.map(|_| 1));
+        let lobes = lobes.map_or(1..=MAX_LOBES, |lobes| lobes..=lobes);
+        let kinds = match options.entrance {
+            Some(kind) => vec![kind],
+            None if self.entrance.len() == 1 => vec![EntranceKind::Constant],
+            None => vec![EntranceKind::Constant, EntranceKind::Power, EntranceKind::Knee],
+        };
+        let mut forms = Vec::new();
+        for lobes in lobes {
+            for &entrance in &kinds {
+                let own = lobes > 1 && entrance != EntranceKind::Constant;
+                for shared in if own { vec![true, false] } else { vec![true] } {
+                    forms.push(Form {
+                        model: options.model,
+                        lobes,
+                        entrance,
+                        shared,
+                        anisotropic: self.turned,
+                        diffuse: options.diffuse,
+                        roughness: options.roughness,
+                        coat_ior: options.coat_ior,
+                        entrance_form: options.entrance_form,
+                    });
+                }
+            }
+        }
+        // A knee where a power does would be read as a measured one.
+        forms.sort_by_key(|form| (form.unknowns().len(), form.entrance, form.lobes));
+        forms
+    }
+}
+
+fn distinct(values: impl Iterator<Item = f64>) -> Vec<f64> {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_by(f64::total_cmp);
+    values.dedup_by(|a, b| (*a - *b).abs() < SAME_ANGLE);
+    values
+}
+
+/// The simplest form that meets the tolerance, or the best one; for measurements with noise, the one of the least
+/// Bayesian information criterion.
+pub(crate) fn choose(
+    observations: &[Observation],
+    options: &FitOptions,
+    span: &Span,
+) -> Result<(Solution, Vec<Trial>), FitError> {
+    let rows = observations.len();
+    let is_table = rows <= TABLE_ROWS;
+    let mut trials = Vec::new();
+    let mut best: Option<Solution> = None;
+    for form in span.forms(options) {
+        let Some(found) = solve(form, observations, options.channel_peak, options.tolerance) else { continue };
+        let (unknowns, worst, rms) = (found.unknowns(), found.worst, found.rms);
+        trials.push(Trial { form, unknowns, worst, rms });
+        let done = is_table && is_acceptable(&found, rows, options.tolerance);
+        let score = |solution: &Solution| if is_table { solution.worst } else { information(solution, rows) };
+        if best.as_ref().is_none_or(|best| score(&found) < score(best)) {
+            best = Some(found);
+        }
+        if done {
+            break;
+        }
+    }
+    best.map(|best| (best, trials)).ok_or(FitError::NoSolution)
+}
+
+/// The Bayesian information criterion for errors of unknown size.
+fn information(solution: &Solution, rows: usize) -> f64 {
+    let rows = rows as f64;
+    rows * 2.0 * solution.rms.max(f64::MIN_POSITIVE).ln() + solution.unknowns() as f64 * rows.ln()
+}

@@ -1,0 +1,162 @@
+//! One form fitted to the data: several starts, least squares, then the worst row.
+
+use levenberg_marquardt::LevenbergMarquardt;
+
+use super::form::{Form, Meaning, Unknown};
+use super::observation::{Aim, Observation};
+use super::problem::{Problem, excess, log_ratios};
+use crate::sheeting::Sheeting;
+
+/// Starting points: what more of them found on the standards' tables was no better.
+const STARTS: usize = 8;
+/// Rounds of weighting the worst rows up.
+const ROUNDS: usize = 14;
+/// How fast a row's weight follows its error: 1 is Lawson's algorithm, which overshoots where rows decide alone.
+const WEIGHT_POWER: f64 = 0.7;
+/// Least weight of a row beside the worst one, in one round.
+const LEAST_WEIGHT: f64 = 0.05;
+/// Rows up to which every single one is held to the tolerance; more of them are measurements with noise.
+pub(crate) const TABLE_ROWS: usize = 64;
+/// An albedo this far above 1 is rounding.
+const ENERGY_SLACK: f64 = 1e-6;
+
+/// A form's best numbers.
+#[derive(Clone, Debug)]
+pub(crate) struct Solution {
+    pub(crate) form: Form,
+    pub(crate) x: Vec<f64>,
+    pub(crate) sheeting: Sheeting,
+    pub(crate) log_ratios: Vec<f64>,
+    /// The greatest error of a row, as a share of its value.
+    pub(crate) worst: f64,
+    /// Root mean square of the rows' errors, as logarithms.
+    pub(crate) rms: f64,
+}
+
+/// How far from its aim a row is, as a logarithm.
+pub(crate) fn miss(aim: Aim, log_ratio: f64) -> f64 {
+    match aim {
+        Aim::Equal => log_ratio.abs(),
+        Aim::AtLeast => (-log_ratio).max(0.0),
+        Aim::AtMost => log_ratio.max(0.0),
+    }
+}
+
+/// The best of several starts; `None` where none gives finite numbers.
+pub(crate) fn solve(
+    form: Form,
+    observations: &[Observation],
+    channel_peak: f64,
+    tolerance: f64,
+) -> Option<Solution> {
+    let unknowns = form.unknowns();
+    let mut best: Option<Solution> = None;
+    for start in 0..STARTS {
+        let x = starting_point(form, &unknowns, observations, start);
+        let mut problem = Problem::new(form, observations, channel_peak, &x);
+        for _ in 0..ROUNDS {
+            (problem, _) = LevenbergMarquardt::new().minimize(problem);
+            let Some(solution) = solution(form, &problem, observations, channel_peak) else { break };
+            let done = solution.worst <= tolerance || observations.len() > TABLE_ROWS;
+            reweight(&mut problem.weights, observations, &solution);
+            if best.as_ref().is_none_or(|best| solution.is_better_than(best)) {
+                best = Some(solution);
+            }
+            if done {
+                break;
+            }
+        }
+        if best.as_ref().is_some_and(|best| best.worst <= tolerance) {
+            break;
+        }
+    }
+    best
+}
+
+fn solution(
+    form: Form,
+    problem: &Problem<'_>,
+    observations: &[Observation],
+    channel_peak: f64,
+) -> Option<Solution> {
+    let mut x = problem.x();
+    let sheeting = form.sheeting(&form.unknowns(), &x);
+    // The energy is a penalty in the problem, and a law here.
+    let albedo = 1.0 + excess(&sheeting, channel_peak);
+    if albedo > 1.0 + ENERGY_SLACK {
+        for (x, unknown) in x.iter_mut().zip(form.unknowns()) {
+            if matches!(unknown.meaning, Meaning::Strength(_) | Meaning::Diffuse) {
+                *x -= albedo.ln();
+            }
+        }
+    }
+    let sheeting = form.sheeting(&form.unknowns(), &x);
+    let log_ratios = log_ratios(&sheeting, observations)?;
+    let misses = observations.iter().zip(&log_ratios).map(|(row, &log)| miss(row.aim, log));
+    let worst = misses.clone().fold(0.0, f64::max).exp_m1();
+    let rms = (misses.map(|miss| miss * miss).sum::<f64>() / observations.len() as f64).sqrt();
+    worst.is_finite().then_some(Solution { form, x, sheeting, log_ratios, worst, rms })
+}
+
+impl Solution {
+    fn is_better_than(&self, other: &Self) -> bool {
+        if self.log_ratios.len() > TABLE_ROWS { self.rms < other.rms } else { self.worst < other.worst }
+    }
+
+    /// The numbers that were free.
+    pub(crate) fn unknowns(&self) -> usize {
+        self.x.len()
+    }
+}
+
+/// Gives weight to the rows that are far off.
+fn reweight(weights: &mut [f64], observations: &[Observation], solution: &Solution) {
+    let rows = observations.iter().zip(&solution.log_ratios);
+    let worst = solution.worst.ln_1p();
+    for (weight, (row, &log)) in weights.iter_mut().zip(rows) {
+        *weight *= (miss(row.aim, log) / worst).max(LEAST_WEIGHT).powf(WEIGHT_POWER);
+    }
+    let most = weights.iter().copied().fold(0.0, f64::max);
+    weights.iter_mut().for_each(|weight| *weight /= most);
+}
+
+/// A start: widths spread over the observation angles, strengths to match, the rest around where ignorance puts it.
+fn starting_point(form: Form, unknowns: &[Unknown], observations: &[Observation], start: usize) -> Vec<f64> {
+    let angles = observations.iter().flat_map(|row| &row.views).map(|view| angle_between(view.wo, view.wi));
+    let (least, most) = angles.fold((f64::INFINITY, 0.0_f64), |(low, high), a| (low.min(a), high.max(a)));
+    let reach = (1.5 * most / least).ln();
+    // A sequence of low discrepancy, another one for each number; the first start is in the middle.
+    let jitter = |k: usize| {
+        let golden = (start as f64 * (k as f64 + 2.0).sqrt()).fract();
+        if start == 0 { 0.0 } else { golden - 0.5 }
+    };
+    let lobes = form.lobes as f64;
+    let mut x: Vec<f64> = unknowns
+        .iter()
+        .enumerate()
+        .map(|(k, unknown)| match unknown.meaning {
+            // exp(-(angle / roughness)^2 / 2) at the angle, half way through the lobe's part of the range.
+            Meaning::Roughness(i, _) => least.ln() + reach * (i as f64 + 0.5 + jitter(k)) / lobes,
+            Meaning::Strength(_) => (0.1 / lobes).ln() + 2.0 * jitter(k),
+            _ => unknown.prior[0] + unknown.prior[1] * jitter(k),
+        })
+        .collect();
+    for (x, unknown) in x.iter_mut().zip(unknowns) {
+        *x = x.clamp(unknown.bounds[0], unknown.bounds[1]);
+    }
+    if let Some(logs) = log_ratios(&form.sheeting(unknowns, &x), observations) {
+        let mean = logs.iter().sum::<f64>() / logs.len() as f64;
+        let strengths = unknowns.iter().zip(&mut x);
+        for (unknown, x) in strengths.filter(|(unknown, _)| matches!(unknown.meaning, Meaning::Strength(_))) {
+            *x = (*x - mean).clamp(unknown.bounds[0], unknown.bounds[1]);
+        }
+    }
+    x
+}
+
+/// The angle between two directions, accurate where it is small.
+fn angle_between(a: catseye::Vec3<f64>, b: catseye::Vec3<f64>) -> f64 {
+    let d = [a.x - b.x, a.y - b.y, a.z - b.z];
+    let chord = d.iter().map(|x| x * x).sum::<f64>().sqrt();
+    2.0 * (0.5 * chord).min(1.0).asin()
+}
