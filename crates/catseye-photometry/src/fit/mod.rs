@@ -17,7 +17,7 @@ mod uncertainty;
 
 pub use error::FitError;
 pub use form::{EntranceKind, Form, Meaning};
-pub use observation::{Aim, Observation, View};
+pub use observation::{Aim, Observation, RowError, View};
 pub use select::MAX_LOBES;
 pub use shape::ShapeBound;
 pub use uncertainty::Estimate;

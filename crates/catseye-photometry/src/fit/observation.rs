@@ -2,6 +2,8 @@
 
 use catseye::Vec3;
 
+use crate::{Quantity, Row};
+
 /// Whether a value is met or only bounded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Aim {
@@ -34,4 +36,42 @@ pub struct Observation {
     pub aim: Aim,
     /// The directions.
     pub views: Vec<View>,
+}
+
+impl Observation {
+    /// The value of a table's row; `area_m2` is that of the whole reflector, which `R_I` is a quantity of.
+    ///
+    /// # Errors
+    /// A row without a value, and a quantity that the geometry doesn't determine.
+    pub fn from_row(row: &Row, aim: Aim, area_m2: Option<f64>) -> Result<Self, RowError> {
+        let geometry = row.geometry();
+        let (quantity, area) = match (row.quantity, area_m2) {
+            (Quantity::LuminousIntensity, Some(area)) => (Quantity::RetroReflectionCoefficient, area),
+            (Quantity::LuminousIntensity, None) => return Err(RowError::NeedsArea),
+            (quantity, _) => (quantity, 1.0),
+        };
+        let Some(factor) = quantity.from_brdf(area, &geometry) else {
+            return Err(RowError::Integral { quantity });
+        };
+        let value = row.value.ok_or(RowError::NoValue)?;
+        Ok(Self { value, aim, views: vec![View { wo: geometry.wo, wi: geometry.wi, factor }] })
+    }
+}
+
+/// Why a row can't be fitted.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[non_exhaustive]
+pub enum RowError {
+    /// The intensity of a whole reflector.
+    #[error("R_I is of a whole reflector; give its area to fit it as a surface")]
+    NeedsArea,
+    /// A quantity that is an integral over directions.
+    #[error("{quantity} is an integral over directions and says little about any; leave it out")]
+    Integral {
+        /// The quantity.
+        quantity: Quantity,
+    },
+    /// A row that was read for its geometry only.
+    #[error("has no value")]
+    NoValue,
 }

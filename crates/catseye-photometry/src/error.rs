@@ -1,0 +1,63 @@
+//! What can be wrong with photometric data.
+
+use std::path::PathBuf;
+
+/// Why a table, a value or a name was refused. The text names the place, the value and the way out.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum Error {
+    /// A file that can't be read.
+    #[error("{}: can't be read: {source}", path.display())]
+    Io {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// Something wrong with a table as a whole.
+    #[error("{table}: {problem}")]
+    Table {
+        /// The table's name: that of its file.
+        table: String,
+        /// What is wrong, and the way out.
+        problem: String,
+    },
+    /// Something wrong with a row.
+    #[error("{table}:{line}: {problem}")]
+    Row {
+        /// The table's name: that of its file.
+        table: String,
+        /// The row's line, counted from 1.
+        line: usize,
+        /// What is wrong, and the way out.
+        problem: String,
+    },
+    /// Something wrong with a cell.
+    #[error("{table}:{line}: column {column}: {problem}")]
+    Cell {
+        /// The table's name: that of its file.
+        table: String,
+        /// The row's line, counted from 1.
+        line: usize,
+        /// The column's name.
+        column: String,
+        /// What is wrong, and the way out.
+        problem: String,
+    },
+    /// A quantity by a name that isn't known.
+    #[error("{name:?} is not a quantity; known are {known}")]
+    UnknownQuantity {
+        /// The name.
+        name: String,
+        /// The names that are known.
+        known: String,
+    },
+    /// A unit by a name that isn't known.
+    #[error("{name:?} is not a known unit; known are {known}")]
+    UnknownUnit {
+        /// The name.
+        name: String,
+        /// The names that are known.
+        known: String,
+    },
+}

@@ -1,0 +1,264 @@
+//! Tables of photometric values: CSV with the columns of data sheets and standards.
+//!
+//! | column | meaning |
+//! |---|---|
+//! | `observation_deg` | observation angle alpha, in `[0, 180)`; needed, and above 0 where there is a value |
+//! | `entrance_deg` | entrance angle component `beta_1`, in `(-90, 90)`; `beta_2` is 0; needed |
+//! | `rotation_deg` | rotation angle epsilon, in `[-360, 360]`; 0 where missing or empty |
+//! | `value`, `unit` | needed by a fit; the unit is cd/lx/m2 where the column is missing or the cell empty |
+//! | `quantity` | `R_A`, `R_L`, ...; where missing or empty what the unit is of |
+//! | `limit` | `minimum`, `maximum` or `typical`; where missing or empty what the standard's name says |
+//! | `standard`, `class`, `colour`, `source` | what the value is of, and who says so |
+//!
+//! Other columns are kept and have no meaning.
+
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::Read as _;
+use std::path::Path;
+
+use crate::cells::{Cells, Columns};
+use crate::{Error, Geometry, Goniometer, Quantity, Unit};
+
+/// Bytes of the largest table that is read: photometric tables have hundreds of rows, not millions.
+const LARGEST: usize = 16 << 20;
+/// Relative difference of two values for the same thing from which on they contradict each other.
+const CONTRADICTION: f64 = 0.05;
+
+/// What a table is for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Need {
+    /// Geometries to measure at. Values are not looked at.
+    Geometry,
+    /// Values at the geometries, of which every one is checked.
+    Values,
+}
+
+/// Which side of its value a material has to be on.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Limit {
+    /// At least the value.
+    Minimum,
+    /// At most the value.
+    Maximum,
+    /// About the value: what was measured.
+    #[default]
+    Typical,
+}
+
+impl Limit {
+    /// `minimum`, `maximum` or `typical`.
+    #[must_use]
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Minimum => "minimum",
+            Self::Maximum => "maximum",
+            Self::Typical => "typical",
+        }
+    }
+}
+
+/// A row of a table.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Row {
+    /// The line in the file, counted from 1.
+    pub line: usize,
+    /// Observation angle alpha, in degrees.
+    pub observation_deg: f64,
+    /// Entrance angle component `beta_1`, in degrees; `beta_2` is 0.
+    pub entrance_deg: f64,
+    /// Rotation angle epsilon, in degrees.
+    pub rotation_deg: f64,
+    /// What the value is a value of.
+    pub quantity: Quantity,
+    /// The value in the quantity's SI unit. Present where the table was read for its values.
+    pub value: Option<f64>,
+    /// The unit that the value is written in.
+    pub unit: Unit,
+    /// Whether the value is a lower or an upper limit.
+    pub limit: Limit,
+    /// The standard; empty where none is given. The same holds for the texts below.
+    pub standard: String,
+    /// The class within the standard, or the product.
+    pub class: String,
+    /// The colour.
+    pub colour: String,
+    /// Who says so.
+    pub source: String,
+    /// The row as it was read, one text for each column of [`Table::header`].
+    pub cells: Vec<String>,
+}
+
+impl Row {
+    /// The directions that the angles mean.
+    #[must_use]
+    pub fn geometry(&self) -> Geometry {
+        let angles =
+            Goniometer::from_degrees(self.observation_deg, self.entrance_deg, 0.0, self.rotation_deg);
+        Geometry::from(angles)
+    }
+
+    /// The value in the unit that it is written in.
+    #[must_use]
+    pub fn value_as_written(&self) -> Option<f64> {
+        self.value.map(|value| self.unit.from_si(value))
+    }
+}
+
+/// Photometric values or geometries, in the order of their file.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Table {
+    name: String,
+    header: Vec<String>,
+    rows: Vec<Row>,
+}
+
+impl Table {
+    /// Reads a file.
+    ///
+    /// # Errors
+    /// A file that can't be read, and everything that [`Table::parse`] refuses.
+    pub fn read(path: &Path, need: Need) -> Result<Self, Error> {
+        let io = |source| Error::Io { path: path.to_owned(), source };
+        let mut bytes = Vec::new();
+        File::open(path).map_err(io)?.take(LARGEST as u64 + 1).read_to_end(&mut bytes).map_err(io)?;
+        Self::parse(&bytes, &path.display().to_string(), need)
+    }
+
+    /// Reads CSV text with a header line; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// Names line and column of: text that is not UTF-8 or longer than 16 MiB, a missing or doubled column, a table
+    /// without rows, an angle that is no number or out of its range, a receiver below the surface. Where values are
+    /// needed also: a value that is missing, not finite, not above 0, in a unit that does not measure its quantity or
+    /// beyond [`Quantity::plausible`], an observation angle of 0, and rows that contradict each other.
+    pub fn parse(bytes: &[u8], name: &str, need: Need) -> Result<Self, Error> {
+        let fail = |problem: String| Error::Table { table: name.to_owned(), problem };
+        if bytes.len() > LARGEST {
+            return Err(fail(format!("is larger than {} MiB; is it a table?", LARGEST >> 20)));
+        }
+        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
+        let text = str::from_utf8(bytes).map_err(|error| Error::Row {
+            table: name.to_owned(),
+            line: line_at(bytes, error.valid_up_to()),
+            problem: "is not UTF-8 text; save the table as CSV in UTF-8".to_owned(),
+        })?;
+        if text.trim().is_empty() {
+            return Err(fail("is empty; a header line and rows are needed".to_owned()));
+        }
+        let mut reader = csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_reader(bytes);
+        let broken = |error: csv::Error| fail(format!("can't be read as CSV: {error}"));
+        let header: Vec<String> = reader.headers().map_err(broken)?.iter().map(str::to_owned).collect();
+        let columns = Columns::new(&header, need).map_err(fail)?;
+        let mut rows = Vec::new();
+        for record in reader.records() {
+            let record = record.map_err(broken)?;
+            let byte = record.position().map_or(0, csv::Position::byte);
+            let line = line_at(bytes, usize::try_from(byte).unwrap_or(usize::MAX));
+            let cells: Vec<String> = record.iter().map(str::to_owned).collect();
+            rows.push(Cells { table: name, line, columns: &columns, header: &header }.row(cells, need)?);
+        }
+        if rows.is_empty() {
+            return Err(fail("has a header, but no rows".to_owned()));
+        }
+        let table = Self { name: name.to_owned(), header, rows };
+        if need == Need::Values {
+            table.refuse_contradictions()?;
+        }
+        Ok(table)
+    }
+
+    /// A table of rows that come from somewhere else; `header` names the rows' [`Row::cells`].
+    #[must_use]
+    pub fn from_rows(name: &str, header: &[String], rows: Vec<Row>) -> Self {
+        Self { name: name.to_owned(), header: header.to_owned(), rows }
+    }
+
+    /// The name: that of the file, or of the standard.
+    #[must_use]
+    pub fn name(&self) -> &str {
+        &self.name
+    }
+
+    /// The names of the columns, as they were read.
+    #[must_use]
+    pub fn header(&self) -> &[String] {
+        &self.header
+    }
+
+    /// The rows; never none where the table was read.
+    #[must_use]
+    pub fn rows(&self) -> &[Row] {
+        &self.rows
+    }
+
+    /// The table as CSV: its own columns, and one more for each pair of a name and a text for every row. A column that
+    /// has an added one's name is replaced.
+    #[must_use]
+    pub fn to_csv(&self, added: &[(&str, Vec<String>)]) -> String {
+        let is_kept = |name: &str| added.iter().all(|(other, _)| *other != name);
+        let kept: Vec<usize> = (0..self.header.len()).filter(|&i| is_kept(&self.header[i])).collect();
+        let mut text = String::new();
+        let names = kept.iter().map(|&i| self.header[i].as_str());
+        push_line(&mut text, names.chain(added.iter().map(|(name, _)| *name)));
+        for (i, row) in self.rows.iter().enumerate() {
+            let own = kept.iter().map(|&i| row.cells.get(i).map_or("", String::as_str));
+            push_line(
+                &mut text,
+                own.chain(added.iter().map(|(_, cells)| cells.get(i).map_or("", String::as_str))),
+            );
+        }
+        text
+    }
+
+    /// Two values for the same thing at the same geometry must be about the same.
+    fn refuse_contradictions(&self) -> Result<(), Error> {
+        let mut known: HashMap<_, &Row> = HashMap::new();
+        for row in &self.rows {
+            let angles = [row.observation_deg, row.entrance_deg, row.rotation_deg].map(f64::to_bits);
+            let key = (&row.standard, &row.class, &row.colour, row.limit, row.quantity, angles);
+            let Some(first) = known.insert(key, row) else { continue };
+            let (Some(a), Some(b)) = (first.value, row.value) else { continue };
+            if (a - b).abs() > CONTRADICTION * a.max(b) {
+                let unit = row.quantity.unit();
+                return Err(Error::Row {
+                    table: self.name.clone(),
+                    line: row.line,
+                    problem: format!(
+                        "says {} = {b} {unit}, but line {} says {a} {unit} at the same angles; \
+                         keep one of them, or tell them apart by class, colour or standard",
+                        row.quantity, first.line
+                    ),
+                });
+            }
+        }
+        Ok(())
+    }
+}
+
+/// The line of the first record at or after a byte offset, counted from 1.
+fn line_at(bytes: &[u8], byte: usize) -> usize {
+    let start = byte.min(bytes.len());
+    let is_end = |b: &u8| matches!(b, b'\n' | b'\r');
+    let record = start + bytes[start..].iter().take_while(|b| is_end(b)).count();
+    let before = &bytes[..record];
+    let crlf = before.windows(2).filter(|pair| pair == b"\r\n").count();
+    before.iter().filter(|b| is_end(b)).count() - crlf + 1
+}
+
+/// Adds a line of CSV: quotes only where they are needed.
+fn push_line<'a>(text: &mut String, cells: impl Iterator<Item = &'a str>) {
+    for (i, cell) in cells.enumerate() {
+        if i > 0 {
+            text.push(',');
+        }
+        if cell.contains([',', '"', '\n', '\r']) {
+            text.push('"');
+            text.push_str(&cell.replace('"', "\"\""));
+            text.push('"');
+        } else {
+            text.push_str(cell);
+        }
+    }
+    text.push('\n');
+}
