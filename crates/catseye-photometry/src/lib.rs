@@ -19,18 +19,22 @@
 //! - Values are in the SI units of their [`Quantity`]: cd/lx/m2, cd/lx, 1/sr or 1. Other units end where text is read.
 
 mod cells;
+mod colour;
 mod entrance;
 mod error;
 pub mod fit;
 mod geometry;
+mod mtlx;
 mod quantity;
 mod sheeting;
 mod table;
 mod unit;
 
+pub use colour::{Colour, ColourError, LUMINANCE, luminance};
 pub use entrance::{EntranceFactor, Knee, LEAST_COSINE};
 pub use error::Error;
 pub use geometry::{Geometry, Goniometer, Intrinsic, RoadMarking};
+pub use mtlx::{MaterialText, to_mtlx};
 pub use quantity::Quantity;
 pub use sheeting::{EntranceForm, Prepared, RetroLobe, Sheeting};
 pub use table::{Limit, Need, Row, Table};

@@ -8,9 +8,16 @@ use super::problem::{Problem, excess, log_ratios};
 use crate::sheeting::Sheeting;
 
 /// Starting points: what more of them found on the standards' tables was no better.
-const STARTS: usize = 8;
-/// Rounds of weighting the worst rows up.
+const STARTS: usize = 12;
+/// Rounds of weighting the worst rows up, and how many of them without progress end them.
 const ROUNDS: usize = 14;
+const IDLE_ROUNDS: usize = 4;
+/// Progress is a worst error that is this much smaller.
+const PROGRESS: f64 = 0.98;
+/// Relative accuracy of the sum of squares and of the numbers within one round; rows are off by percents.
+const ROUND_ACCURACY: f64 = 1e-6;
+/// Evaluations within one round, in multiples of the free numbers plus one.
+const PATIENCE: usize = 12;
 /// How fast a row's weight follows its error: 1 is Lawson's algorithm, which overshoots where rows decide alone.
 const WEIGHT_POWER: f64 = 0.7;
 /// Least weight of a row beside the worst one, in one round.
@@ -54,15 +61,22 @@ pub(crate) fn solve(
     for start in 0..STARTS {
         let x = starting_point(form, &unknowns, observations, start);
         let mut problem = Problem::new(form, observations, channel_peak, &x);
+        let solver = LevenbergMarquardt::new()
+            .with_ftol(ROUND_ACCURACY)
+            .with_xtol(ROUND_ACCURACY)
+            .with_patience(PATIENCE);
+        let (mut least, mut idle) = (f64::INFINITY, 0);
         for _ in 0..ROUNDS {
-            (problem, _) = LevenbergMarquardt::new().minimize(problem);
+            (problem, _) = solver.minimize(problem);
             let Some(solution) = solution(form, &problem, observations, channel_peak) else { break };
-            let done = solution.worst <= tolerance || observations.len() > TABLE_ROWS;
+            let worst = solution.worst;
+            let done = worst <= tolerance || observations.len() > TABLE_ROWS;
             reweight(&mut problem.weights, observations, &solution);
             if best.as_ref().is_none_or(|best| solution.is_better_than(best)) {
                 best = Some(solution);
             }
-            if done {
+            (least, idle) = if worst < PROGRESS * least { (worst, 0) } else { (least, idle + 1) };
+            if done || idle == IDLE_ROUNDS {
                 break;
             }
         }

@@ -1,0 +1,268 @@
+//! Fitted sheeting as a MaterialX document.
+
+use std::io::Cursor;
+
+use catseye::Model;
+use quick_xml::Writer;
+use quick_xml::events::{BytesDecl, BytesText, Event};
+
+use crate::colour::Colour;
+use crate::entrance::LEAST_COSINE;
+use crate::sheeting::Sheeting;
+
+/// What a document says beside the numbers.
+#[derive(Clone, Debug)]
+pub struct MaterialText<'a> {
+    /// Name of the material, as its user wants it; letters and digits remain, the rest becomes `_`.
+    pub name: &'a str,
+    /// What the material was fitted to, and how well.
+    pub doc: &'a str,
+    /// Comment at the head of the document.
+    pub comment: &'a str,
+    /// Colour of the lobes and of the diffuse base.
+    pub colour: Colour,
+}
+
+/// The sheeting as a MaterialX 1.39 document: lobes whose tints depend on the entrance angle, added to a diffuse base, under
+/// a coat.
+///
+/// The nodes are those of MaterialX and `retro_reflective_bsdf`, in the back-vector model `generalized_schlick_bsdf` with
+/// `retroreflective`. A node graph knows the direction to the viewer only, so that is what the entrance factors see
+/// ([`crate::EntranceForm::View`]), whatever the form of the sheeting.
+#[must_use]
+pub fn to_mtlx(sheeting: &Sheeting, text: &MaterialText<'_>) -> String {
+    let mut document = Document::new(text.comment);
+    let name = identifier(text.name);
+    let graph = format!("{name}_sheet");
+    document.open("nodegraph", &[("name", &graph)]);
+    let factors = entrance_nodes(&mut document, sheeting);
+    let mut parts = Vec::new();
+    for (i, lobe) in sheeting.lobes.iter().enumerate() {
+        let part = format!("lobe_{}", i + 1);
+        let tint = document.tint(&part, rgb(text.colour, lobe.strength), factors[i].as_deref());
+        match sheeting.model {
+            Model::BackVector => document.back_vector(&part, lobe.roughness, &tint),
+            Model::Reciprocal | Model::Edwards => document.retro_reflective(&part, lobe.roughness, &tint),
+        }
+        parts.push(part);
+    }
+    if sheeting.diffuse > 0.0 {
+        let color = ("color", "color3", Feed::Value(rgb(text.colour, sheeting.diffuse)));
+        document.node("oren_nayar_diffuse_bsdf", "base", "BSDF", &[color]);
+        parts.push("base".to_owned());
+    }
+    let mut sheet = sum(&mut document, &parts);
+    if let Some(ior) = sheeting.coat_ior {
+        let inputs = [
+            ("ior", "float", Feed::Value(number(ior))),
+            ("roughness", "vector2", Feed::Value("0, 0".to_owned())),
+            ("scatter_mode", "string", Feed::Value("R".to_owned())),
+        ];
+        document.node("dielectric_bsdf", "coat", "BSDF", &inputs);
+        let inputs = [("top", "BSDF", Feed::Node("coat".to_owned())), ("base", "BSDF", Feed::Node(sheet))];
+        document.node("layer", "coated", "BSDF", &inputs);
+        sheet = "coated".to_owned();
+    }
+    document.leaf("output", &[("name", "out"), ("type", "BSDF"), ("nodename", &sheet)]);
+    document.close("nodegraph");
+    let surface = format!("{name}_surface");
+    document.open("surface", &[("name", &surface), ("type", "surfaceshader")]);
+    document
+        .leaf("input", &[("name", "bsdf"), ("type", "BSDF"), ("nodegraph", &graph), ("output", "out")]);
+    document.close("surface");
+    document.open("surfacematerial", &[("name", &name), ("type", "material"), ("doc", text.doc)]);
+    document.leaf("input", &[("name", "surfaceshader"), ("type", "surfaceshader"), ("nodename", &surface)]);
+    document.close("surfacematerial");
+    document.finish()
+}
+
+/// The nodes of the entrance factors; for each lobe the name of its factor, where it has one.
+fn entrance_nodes(document: &mut Document, sheeting: &Sheeting) -> Vec<Option<String>> {
+    let mut made: Vec<(crate::EntranceFactor, String)> = Vec::new();
+    let mut names = Vec::new();
+    for lobe in &sheeting.lobes {
+        let factor = lobe.entrance;
+        if factor == crate::EntranceFactor::default() {
+            names.push(None);
+            continue;
+        }
+        if made.is_empty() {
+            let forward = ("faceforward", "boolean", Feed::Value("true".to_owned()));
+            document.node("facingratio", "facing", "float", &[forward]);
+            let least = ("in2", "float", Feed::Value(number(LEAST_COSINE)));
+            document.node("max", "entrance_cosine", "float", &[in1("facing"), least]);
+        }
+        let known = made.iter().find(|(other, _)| *other == factor).map(|(_, name)| name.clone());
+        let name = known.unwrap_or_else(|| {
+            let name = format!("entrance_{}", made.len() + 1);
+            document.entrance(&name, &factor);
+            made.push((factor, name.clone()));
+            name
+        });
+        names.push(Some(name));
+    }
+    names
+}
+
+/// The sum of closures.
+fn sum(document: &mut Document, parts: &[String]) -> String {
+    let mut parts = parts.iter().enumerate();
+    let mut total = parts.next().map(|(_, first)| first.clone()).unwrap_or_default();
+    for (i, part) in parts {
+        let name = format!("sum_{i}");
+        let inputs = [("in1", "BSDF", Feed::Node(total)), ("in2", "BSDF", Feed::Node(part.clone()))];
+        document.node("add", &name, "BSDF", &inputs);
+        total = name;
+    }
+    total
+}
+
+/// Where a node's input comes from.
+#[derive(Clone, Debug)]
+enum Feed {
+    Value(String),
+    Node(String),
+}
+
+type Input<'a> = (&'a str, &'a str, Feed);
+
+fn in1(node: &str) -> Input<'static> {
+    ("in1", "float", Feed::Node(node.to_owned()))
+}
+
+fn in2(value: f64) -> Input<'static> {
+    ("in2", "float", Feed::Value(number(value)))
+}
+
+/// An XML document as it grows. Writing to memory can't fail.
+struct Document {
+    writer: Writer<Cursor<Vec<u8>>>,
+}
+
+impl Document {
+    fn new(comment: &str) -> Self {
+        let mut document = Self { writer: Writer::new_with_indent(Cursor::new(Vec::new()), b' ', 2) };
+        document.event(Event::Decl(BytesDecl::new("1.0", None, None)));
+        // A comment ends at the first two hyphens.
+        let comment = format!(" {} ", comment.replace("--", "- -"));
+        document.event(Event::Comment(BytesText::from_escaped(comment)));
+        document.open("materialx", &[("version", "1.39"), ("colorspace", "lin_rec709")]);
+        document
+    }
+
+    fn finish(mut self) -> String {
+        self.close("materialx");
+        let mut text = String::from_utf8_lossy(&self.writer.into_inner().into_inner()).into_owned();
+        text.push('\n');
+        text
+    }
+
+    fn event(&mut self, event: Event<'_>) {
+        self.writer.write_event(event).unwrap_or_default();
+    }
+
+    fn open(&mut self, name: &str, attributes: &[(&str, &str)]) {
+        let start = quick_xml::events::BytesStart::new(name).with_attributes(attributes.iter().copied());
+        self.event(Event::Start(start));
+    }
+
+    fn close(&mut self, name: &str) {
+        self.event(Event::End(quick_xml::events::BytesEnd::new(name)));
+    }
+
+    fn leaf(&mut self, name: &str, attributes: &[(&str, &str)]) {
+        let start = quick_xml::events::BytesStart::new(name).with_attributes(attributes.iter().copied());
+        self.event(Event::Empty(start));
+    }
+
+    fn node(&mut self, category: &str, name: &str, kind: &str, inputs: &[Input<'_>]) {
+        self.open(category, &[("name", name), ("type", kind)]);
+        for (input, kind, feed) in inputs {
+            let (key, value) = match feed {
+                Feed::Value(value) => ("value", value),
+                Feed::Node(node) => ("nodename", node),
+            };
+            self.leaf("input", &[("name", input), ("type", kind), (key, value)]);
+        }
+        self.close(category);
+    }
+
+    /// `cosine^power exp(-((1 - cosine^2) / position)^steepness)`.
+    fn entrance(&mut self, name: &str, factor: &crate::EntranceFactor) {
+        let power = if factor.knee.is_some() { format!("{name}_power") } else { name.to_owned() };
+        self.node("power", &power, "float", &[in1("entrance_cosine"), in2(factor.power)]);
+        let Some(knee) = factor.knee else { return };
+        let part = |part: &str| format!("{name}_{part}");
+        let (square, sine, share, fall, negative, drop) =
+            (part("cosine2"), part("sine2"), part("share"), part("fall"), part("negative"), part("drop"));
+        let cosine = |input| (input, "float", Feed::Node("entrance_cosine".to_owned()));
+        self.node("multiply", &square, "float", &[cosine("in1"), cosine("in2")]);
+        let one = ("amount", "float", Feed::Value("1".to_owned()));
+        self.node("invert", &sine, "float", &[("in", "float", Feed::Node(square)), one]);
+        self.node("divide", &share, "float", &[in1(&sine), in2(knee.position)]);
+        self.node("power", &fall, "float", &[in1(&share), in2(knee.steepness)]);
+        self.node("multiply", &negative, "float", &[in1(&fall), in2(-1.0)]);
+        self.node("exp", &drop, "float", &[("in", "float", Feed::Node(negative))]);
+        self.node("multiply", name, "float", &[in1(&power), ("in2", "float", Feed::Node(drop))]);
+    }
+
+    /// The tint of a lobe: a value, or a node that multiplies it with a factor.
+    fn tint(&mut self, lobe: &str, color: String, factor: Option<&str>) -> Feed {
+        let Some(factor) = factor else { return Feed::Value(color) };
+        let name = format!("{lobe}_tint");
+        let factor = ("in2", "float", Feed::Node(factor.to_owned()));
+        self.node("multiply", &name, "color3", &[("in1", "color3", Feed::Value(color)), factor]);
+        Feed::Node(name)
+    }
+
+    fn retro_reflective(&mut self, name: &str, [u, v]: [f64; 2], tint: &Feed) {
+        let mut inputs = vec![("roughness_u", "float", Feed::Value(number(u)))];
+        if v != u {
+            inputs.push(("roughness_v", "float", Feed::Value(number(v))));
+        }
+        inputs.push(("tint", "color3", tint.clone()));
+        self.node("retro_reflective_bsdf", name, "BSDF", &inputs);
+    }
+
+    /// Schlick's curve between two equal colours is no curve: the Fresnel factor is the tint.
+    fn back_vector(&mut self, name: &str, [u, v]: [f64; 2], tint: &Feed) {
+        let inputs = [
+            ("color0", "color3", tint.clone()),
+            ("color90", "color3", tint.clone()),
+            ("roughness", "vector2", Feed::Value(format!("{}, {}", number(u), number(v)))),
+            ("retroreflective", "boolean", Feed::Value("true".to_owned())),
+            ("scatter_mode", "string", Feed::Value("R".to_owned())),
+        ];
+        self.node("generalized_schlick_bsdf", name, "BSDF", &inputs);
+    }
+}
+
+fn rgb(colour: Colour, luminance: f64) -> String {
+    // Energy is conserved to rounding; an input's range is not.
+    colour.of_luminance(luminance).map(|x| number(x.min(1.0))).join(", ")
+}
+
+/// Six significant digits, in the shortest form: a hundred times finer than any data sheet.
+fn number(x: f64) -> String {
+    let digits = if x == 0.0 { 0 } else { 5 - x.abs().log10().floor() as i32 };
+    let digits = usize::try_from(digits.clamp(0, 12)).unwrap_or(0);
+    let text = format!("{x:.digits$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+/// A MaterialX name: letters, digits and `_`, not beginning with a digit.
+fn identifier(name: &str) -> String {
+    let mut text = String::new();
+    for character in name.chars() {
+        let good = if character.is_ascii_alphanumeric() { character.to_ascii_lowercase() } else { '_' };
+        if !(good == '_' && text.ends_with('_')) {
+            text.push(good);
+        }
+    }
+    let text = text.trim_matches('_');
+    if text.starts_with(|first: char| first.is_ascii_alphabetic()) {
+        text.to_owned()
+    } else {
+        format!("material_{text}").trim_end_matches('_').to_owned()
+    }
+}
