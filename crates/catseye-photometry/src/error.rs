@@ -60,4 +60,30 @@ pub enum Error {
         /// The names that are known.
         known: String,
     },
+    /// A name that fits no class of a standard.
+    #[error("{name:?} names no class of a standard; there are {known}")]
+    UnknownStandard {
+        /// The name.
+        name: String,
+        /// What there is: classes, or standards where the classes are many.
+        known: String,
+    },
+    /// A name that fits several classes where one is asked for.
+    #[error("{name:?} names several classes of standards: {candidates}; say which one")]
+    AmbiguousStandard {
+        /// The name.
+        name: String,
+        /// The classes, or their standards where they are many.
+        candidates: String,
+    },
+    /// A number outside the range that a conversion is defined on.
+    #[error("{name} is {value}, outside {range}")]
+    Range {
+        /// What the number is.
+        name: &'static str,
+        /// The number.
+        value: f64,
+        /// The range, in the notation `[0, 1]`.
+        range: &'static str,
+    },
 }

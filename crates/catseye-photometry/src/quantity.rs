@@ -21,10 +21,10 @@ pub enum Quantity {
     /// `R_Phi`, coefficient of retro-reflected luminous flux: intensity per incident flux. f cos nu, cd/lm, here 1/sr.
     RetroReflectedFlux,
     /// `R_T`, fractional retro-reflectance: share of the incident flux that comes back within the observation angle,
-    /// whatever the direction. An integral.
+    /// whatever the direction. An integral: [`crate::fractional_retro_reflectance`].
     FractionalRetroReflectance,
     /// `Q_d`, luminance coefficient under diffuse illumination (EN 1436): luminance per illuminance on the surface under
-    /// an even sky. An integral, in cd/lx/m2.
+    /// an even sky. An integral, in cd/lx/m2: [`crate::diffuse_luminance_coefficient`].
     DaytimeLuminance,
     /// Y, the luminance factor beta: luminance relative to that of a perfect white diffuser in the same light. pi f.
     LuminanceFactor,
