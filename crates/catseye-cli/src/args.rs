@@ -3,7 +3,7 @@
 use catseye::Model;
 use clap::{Parser, Subcommand, ValueEnum};
 
-use crate::verbs::{albedo, eval, furnace, materialx, plot, render, sample};
+use crate::verbs::{albedo, eval, fit, furnace, materialx, plot, render, sample};
 
 /// The retro-reflective BSDF: evaluate it, sample it, plot it, render with it.
 #[derive(Debug, Parser)]
@@ -27,6 +27,7 @@ enum Verb {
     Sample(sample::Args),
     Albedo(albedo::Args),
     Plot(plot::Args),
+    Fit(fit::Args),
     Materialx(materialx::Args),
 }
 
@@ -40,6 +41,7 @@ impl Cli {
             Verb::Sample(args) => args.run(),
             Verb::Albedo(args) => args.run(),
             Verb::Plot(args) => args.run(),
+            Verb::Fit(args) => args.run(),
             Verb::Materialx(args) => args.run(),
         }
     }

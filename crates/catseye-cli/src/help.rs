@@ -50,6 +50,13 @@ Example:
   $ catseye plot albedo --roughness 0.1,0.5,1,inf -o albedo.svg
   wrote albedo.svg (960 x 640)";
 
+/// Examples of `catseye fit`.
+pub(crate) const FIT: &str = "\
+Example:
+  $ catseye fit astm-d4956:iii:white --luminance-factor 0.27 -o sign.mtlx --report sign.html
+  $ printf 'observation_deg,entrance_deg,value,unit\\n0.2,5,250,cd/lx/m2\\n0.5,5,95,cd/lx/m2\\n' > sheet.csv
+  $ catseye fit sheet.csv -o sheet.mtlx";
+
 /// Example of `catseye materialx`.
 pub(crate) const MATERIALX: &str = "\
 Example:

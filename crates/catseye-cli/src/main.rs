@@ -5,6 +5,7 @@ mod canvas;
 mod data_library;
 mod failure;
 mod figure;
+mod fitting;
 mod help;
 mod input;
 mod layout;

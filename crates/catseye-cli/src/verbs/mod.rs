@@ -3,6 +3,7 @@
 pub(crate) mod albedo;
 pub(crate) mod check;
 pub(crate) mod eval;
+pub(crate) mod fit;
 pub(crate) mod furnace;
 pub(crate) mod materialx;
 pub(crate) mod plot;

@@ -1,0 +1,178 @@
+//! The result of a fit as text and as JSON.
+
+use std::fmt::Write as _;
+
+use catseye_photometry::fit::{EntranceKind, Fit, Form, Observation};
+use catseye_photometry::half_power::half_power_angle;
+use serde_json::{Value, json};
+
+use super::Subject;
+
+/// A fit and all that is said of it.
+#[derive(Clone, Debug)]
+pub(crate) struct Outcome<'a> {
+    /// What was fitted.
+    pub(crate) subject: &'a Subject,
+    /// The same as the fit saw it.
+    pub(crate) observations: &'a [Observation],
+    /// The fit.
+    pub(crate) fit: &'a Fit,
+    /// The same table fitted with the back-vector lobe.
+    pub(crate) beside: Option<&'a Fit>,
+    /// The worst error that is accepted.
+    pub(crate) tolerance: f64,
+}
+
+impl Outcome<'_> {
+    /// One sentence: how good the fit is.
+    pub(crate) fn verdict(&self) -> String {
+        let (rows, worst, rms) = (self.subject.rows.len(), percent(self.fit.worst), percent(self.fit.rms));
+        let word = if self.fit.acceptable { "accepted" } else { "not accepted" };
+        let tolerance = percent(self.tolerance);
+        format!("{word}: worst of {rows} values {worst} off, rms {rms}, tolerance {tolerance}")
+    }
+
+    /// Why the tolerance can't be met, where that is known.
+    pub(crate) fn why_not(&self) -> Option<String> {
+        let bound = self.fit.shape?;
+        let [first, middle, last] = bound.rows.map(|row| &self.subject.rows[row]);
+        Some(format!(
+            "no sum of lobes comes closer than {} to the values at entrance {} deg and observation {}, {} and {} deg \
+             ({}, {}, {}): they fall slowly at first and then fast, and a sum of lobes does the reverse",
+            percent(bound.error),
+            first.entrance_deg,
+            first.observation_deg,
+            middle.observation_deg,
+            last.observation_deg,
+            short(first.value_as_written().unwrap_or(f64::NAN)),
+            short(middle.value_as_written().unwrap_or(f64::NAN)),
+            short(last.value_as_written().unwrap_or(f64::NAN)),
+        ))
+    }
+
+    /// What the back-vector lobe makes of the same table.
+    pub(crate) fn comparison(&self) -> Option<String> {
+        let beside = self.beside?;
+        Some(format!(
+            "beside it, back-vector GGX: {}, worst {} off",
+            describe(&beside.form),
+            percent(beside.worst)
+        ))
+    }
+
+    /// What it costs that the entrance factors see the direction to the viewer only.
+    pub(crate) fn view_form(&self) -> Option<String> {
+        let cost = self.fit.cost_of_view_form(self.observations);
+        (cost > 0.0).then(|| {
+            format!(
+                "the entrance factors see the viewer's direction, as a node graph must; the reciprocal form would differ \
+                 by at most {}",
+                percent(cost)
+            )
+        })
+    }
+
+    /// The result for people.
+    pub(crate) fn text(&self) -> String {
+        let mut text = String::new();
+        let title = if self.subject.title.is_empty() { &self.subject.name } else { &self.subject.title };
+        let _ = writeln!(text, "{title}: {}\n", describe(&self.fit.form));
+        let _ = writeln!(text, "{:<28} {:>12}   one standard deviation", "number", "value");
+        for estimate in &self.fit.estimates {
+            let [low, high] = estimate.interval;
+            let (name, value) = (estimate.meaning.name(), short(estimate.value));
+            let _ = writeln!(text, "{name:<28} {value:>12}   {} to {}", short(low), short(high));
+        }
+        for (i, lobe) in self.fit.sheeting.lobes.iter().enumerate() {
+            if let Ok(angle) = half_power_angle(lobe.roughness[0]) {
+                let name = format!("lobe {} half-power angle", i + 1);
+                let _ = writeln!(text, "{name:<28} {:>8} deg", short(angle.to_degrees()));
+            }
+        }
+        let _ = writeln!(text, "\nobservation   entrance   rotation  quantity        value        model   model/value");
+        for (row, ratio) in self.subject.rows.iter().zip(&self.fit.ratios) {
+            let value = row.value_as_written().unwrap_or(f64::NAN);
+            let _ = writeln!(
+                text,
+                "{:>7} deg {:>6} deg {:>6} deg  {:<8} {:>12} {:>12}   {ratio:.3}",
+                row.observation_deg,
+                row.entrance_deg,
+                row.rotation_deg,
+                row.quantity.symbol(),
+                short(value),
+                short(value * ratio),
+            );
+        }
+        let _ = write!(text, "\n{}", self.verdict());
+        let more = [self.why_not(), self.comparison(), self.view_form()];
+        for line in more.into_iter().flatten().chain(self.warnings()) {
+            let _ = write!(text, "\n{line}");
+        }
+        text
+    }
+
+    fn warnings(&self) -> impl Iterator<Item = String> {
+        self.fit.warnings.iter().map(|warning| format!("warning: {warning}"))
+    }
+
+    /// The result for programs.
+    pub(crate) fn json(&self) -> Value {
+        let estimate = |e: &catseye_photometry::fit::Estimate| {
+            json!({
+                "name": e.meaning.name(), "value": e.value, "low": e.interval[0], "high": e.interval[1],
+                "determined": e.determined, "at_bound": e.at_bound,
+            })
+        };
+        let row = |(row, ratio): (&catseye_photometry::Row, &f64)| {
+            let value = row.value_as_written();
+            json!({
+                "observation_deg": row.observation_deg, "entrance_deg": row.entrance_deg,
+                "rotation_deg": row.rotation_deg, "quantity": row.quantity.symbol(), "unit": row.unit.symbol(),
+                "value": value, "model": value.map(|value| value * ratio), "ratio": ratio,
+            })
+        };
+        let beside = self.beside.map(
+            |fit| json!({ "form": describe(&fit.form), "numbers": fit.estimates.len(), "worst": fit.worst, "rms": fit.rms }),
+        );
+        json!({
+            "name": self.subject.name, "title": self.subject.title, "form": describe(&self.fit.form),
+            "accepted": self.fit.acceptable, "tolerance": self.tolerance, "worst": self.fit.worst, "rms": self.fit.rms,
+            "numbers": self.fit.estimates.iter().map(estimate).collect::<Vec<_>>(),
+            "rows": self.subject.rows.iter().zip(&self.fit.ratios).map(row).collect::<Vec<_>>(),
+            "view_form_cost": self.fit.cost_of_view_form(self.observations),
+            "why_not": self.why_not(), "back_vector": beside, "warnings": self.fit.warnings,
+        })
+    }
+}
+
+/// A form in words.
+pub(crate) fn describe(form: &Form) -> String {
+    let lobes = if form.lobes == 1 { "1 lobe".to_owned() } else { format!("{} lobes", form.lobes) };
+    let entrance = match form.entrance {
+        EntranceKind::Constant => ", the same at every entrance angle",
+        EntranceKind::Power => ", a power of the entrance angle's cosine",
+        EntranceKind::Knee => ", a power of the entrance angle's cosine with a knee",
+    };
+    let own = match (form.entrance, form.shared || form.lobes == 1) {
+        (EntranceKind::Constant, _) | (_, true) => "",
+        _ => " for each",
+    };
+    let base = if form.diffuse { ", a diffuse base" } else { "" };
+    let coat = form.coat_ior.map_or(String::new(), |ior| format!(", a clear coat of index {ior}"));
+    format!("{lobes}{entrance}{own}{base}{coat}")
+}
+
+/// A share in percent.
+pub(crate) fn percent(share: f64) -> String {
+    format!("{:.1} %", 100.0 * share)
+}
+
+/// Four significant digits.
+pub(crate) fn short(value: f64) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    let digits = (3 - value.abs().log10().floor() as i32).clamp(0, 9) as usize;
+    let text = format!("{value:.digits$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}

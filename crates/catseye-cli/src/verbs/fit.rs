@@ -1,0 +1,208 @@
+//! `catseye fit`: from coefficients of retro-reflection to a material.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::bail;
+use catseye::Model;
+use catseye_photometry::fit::{EntranceKind, Fit, FitOptions, Observation, fit};
+use catseye_photometry::half_power::roughness_from_half_power_angle;
+use catseye_photometry::{Colour, MaterialText, Quantity, to_mtlx};
+use clap::ValueEnum;
+
+use crate::failure::Usage;
+use crate::fitting::{Outcome, Subject, page};
+use crate::output::Output;
+use crate::{help, report};
+
+/// Fit a material to coefficients of retro-reflection, of a CSV table or of a standard's class
+///
+/// Finds a sum of retro-reflective lobes with entrance factors, and a diffuse base where a luminance factor is given, whose albedo
+/// is at most 1. The table has the columns observation_deg, entrance_deg, value and unit; rotation_deg (0), quantity (R_A),
+/// standard, class, colour and source are optional. `catseye standards list` names the classes that come with the program.
+/// Without a wish, the simplest model whose worst value is within the tolerance is chosen. Exit code 1 if there is none; then
+/// no material is written.
+#[derive(Debug, clap::Args)]
+#[command(after_help = help::FIT)]
+pub(crate) struct Args {
+    /// CSV file, or STANDARD:CLASS:COLOUR
+    #[arg(value_name = "TABLE|STANDARD")]
+    subject: String,
+    /// Write the material to this .mtlx file
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Write a report to this .html file, whatever comes out
+    #[arg(long, value_name = "FILE")]
+    report: Option<PathBuf>,
+    /// Fit only the rows whose standard, class and colour contain this text
+    #[arg(long, value_name = "TEXT")]
+    only: Option<String>,
+    /// Lobes: 1, 2, 3 or auto
+    #[arg(long, value_name = "N", default_value = "auto")]
+    lobes: String,
+    /// How the strength depends on the entrance angle
+    #[arg(long, value_enum, default_value_t)]
+    entrance: Entrance,
+    /// The worst error that is accepted, in percent
+    #[arg(long, value_name = "PERCENT", default_value_t = 5.0)]
+    tolerance: f64,
+    /// Meet minima as lower limits instead of as values
+    #[arg(long)]
+    at_least: bool,
+    /// Half-power angle of a single lobe in degrees, where the table can't tell it
+    #[arg(long, value_name = "DEG")]
+    half_power_deg: Option<f64>,
+    /// Luminance factor Y by day (45/0), for the diffuse base
+    #[arg(long, value_name = "Y")]
+    luminance_factor: Option<f64>,
+    /// Put a clear coat of this index of refraction over the lobes
+    #[arg(long, value_name = "IOR", num_args = 0..=1, default_missing_value = "1.5")]
+    coat: Option<f64>,
+    /// Colour of the tint, a name or linear Rec. 709 [default: what the rows name]
+    #[arg(long, value_name = "NAME|R,G,B")]
+    colour: Option<Colour>,
+    /// Area of the whole reflector, which coefficients of luminous intensity are of
+    #[arg(long, value_name = "M2")]
+    area_m2: Option<f64>,
+    /// Lobe model
+    #[arg(long, value_enum, default_value_t)]
+    model: FitModel,
+    /// Name of the material [default: the file's]
+    #[arg(long, value_name = "NAME")]
+    name: Option<String>,
+    /// Print the result as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+/// How the strength of the lobes may depend on the entrance angle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum Entrance {
+    /// The simplest that does
+    #[default]
+    Auto,
+    /// Not at all
+    None,
+    /// As a power of the cosine
+    Power,
+    /// As a power of the cosine that breaks off
+    Knee,
+}
+
+/// The models that sheeting is fitted with.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+enum FitModel {
+    /// The proposal's lobe: retro_reflective_bsdf
+    #[default]
+    Reciprocal,
+    /// The microfacet lobe of MaterialX 1.39.5: generalized_schlick_bsdf with retroreflective
+    BackVector,
+}
+
+impl Args {
+    pub(crate) fn run(&self) -> anyhow::Result<()> {
+        let options = self.options()?;
+        let mut subject = Subject::find(&self.subject, self.only.as_deref())?;
+        let colour = self.colour.unwrap_or_else(|| subject.colour());
+        let observations = self.observations(&mut subject)?;
+        let options = FitOptions {
+            diffuse: self.luminance_factor.is_some() || subject.has_luminance_factor(),
+            channel_peak: colour.peak(),
+            ..options
+        };
+        let material = self.output.as_deref().map(Output::new).transpose()?;
+        let html = self.report.as_deref().map(Output::new).transpose()?;
+        let name = |error| anyhow::Error::from(error).context(subject.name.clone());
+        let found = fit(&observations, &options).map_err(name)?;
+        let beside = (options.model != Model::BackVector)
+            .then(|| fit(&observations, &FitOptions { model: Model::BackVector, roughness: None, ..options }));
+        let beside: Option<Fit> = beside.and_then(Result::ok);
+        let outcome = Outcome {
+            subject: &subject,
+            observations: &observations,
+            fit: &found,
+            beside: beside.as_ref(),
+            tolerance: options.tolerance,
+        };
+        if let Some(html) = &html {
+            html.write(page(&outcome)?.as_bytes())?;
+        }
+        report::print(self.json, &outcome.json(), &outcome.text())?;
+        if !found.acceptable {
+            bail!("{}: no acceptable fit; --tolerance would accept a worse one", subject.name);
+        }
+        match material {
+            Some(material) => material.write(self.document(&outcome, colour).as_bytes()),
+            None => Ok(()),
+        }
+    }
+
+    fn options(&self) -> anyhow::Result<FitOptions> {
+        let lobes = match self.lobes.as_str() {
+            "auto" => None,
+            number => match number.parse() {
+                Ok(lobes @ 1..=3) => Some(lobes),
+                _ => bail!(Usage(format!("--lobes is {number:?}: it must be 1, 2, 3 or auto"))),
+            },
+        };
+        let roughness = self.half_power_deg.map(|angle| roughness_from_half_power_angle(angle.to_radians()));
+        let entrance = match self.entrance {
+            Entrance::Auto => None,
+            Entrance::None => Some(EntranceKind::Constant),
+            Entrance::Power => Some(EntranceKind::Power),
+            Entrance::Knee => Some(EntranceKind::Knee),
+        };
+        let model = match self.model {
+            FitModel::Reciprocal => Model::Reciprocal,
+            FitModel::BackVector => Model::BackVector,
+        };
+        if self.area_m2.is_some_and(|area| !(area > 0.0 && area.is_finite())) {
+            bail!(Usage("--area-m2 must be above 0".to_owned()));
+        }
+        Ok(FitOptions {
+            model,
+            lobes,
+            entrance,
+            roughness: roughness.transpose()?,
+            coat_ior: self.coat,
+            tolerance: 0.01 * self.tolerance,
+            ..FitOptions::default()
+        })
+    }
+
+    /// The subject's rows as a fit sees them, and one more where a luminance factor was given as an option.
+    fn observations(&self, subject: &mut Subject) -> anyhow::Result<Vec<Observation>> {
+        if let Some(value) = self.luminance_factor {
+            if !(value > 0.0 && value <= 2.0) {
+                bail!(Usage(format!("--luminance-factor is {value}: it must be in (0, 2]")));
+            }
+            let row = subject.rows.first().cloned();
+            subject.rows.extend(row.map(|row| catseye_photometry::Row {
+                observation_deg: 45.0,
+                entrance_deg: 45.0,
+                rotation_deg: 0.0,
+                quantity: Quantity::LuminanceFactor,
+                unit: Quantity::LuminanceFactor.unit(),
+                value: Some(value),
+                limit: catseye_photometry::Limit::Typical,
+                source: String::new(),
+                ..row
+            }));
+        }
+        subject.observations(self.at_least, self.area_m2)
+    }
+
+    fn document(&self, outcome: &Outcome<'_>, colour: Colour) -> String {
+        let stem = self.output.as_deref().and_then(Path::file_stem).map(|stem| stem.to_string_lossy());
+        let name = self.name.clone().or_else(|| stem.map(Into::into)).unwrap_or_default();
+        let subject = outcome.subject;
+        let title = if subject.title.is_empty() { &subject.name } else { &subject.title };
+        let doc = format!("Fitted to {title}. {}.", outcome.verdict());
+        let sources = subject.sources().join("; ");
+        let comment = if sources.is_empty() {
+            format!("Written by catseye fit {}", self.subject)
+        } else {
+            format!("Written by catseye fit {}. Source of the values: {sources}", self.subject)
+        };
+        to_mtlx(&outcome.fit.sheeting, &MaterialText { name: &name, doc: &doc, comment: &comment, colour })
+    }
+}
