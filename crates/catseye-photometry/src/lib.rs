@@ -18,6 +18,7 @@
 //! - Everything is `f64`: a goniometer's angles are tenths of a degree, whose cosines differ from 1 in the sixth digit.
 //! - Values are in the SI units of their [`Quantity`]: cd/lx/m2, cd/lx, 1/sr or 1. Other units end where text is read.
 
+mod aperture;
 mod cells;
 mod colour;
 mod entrance;
@@ -34,6 +35,7 @@ mod table;
 mod unit;
 pub mod verdict;
 
+pub use aperture::{ApertureRule, Apertures};
 pub use colour::{Colour, ColourError, LUMINANCE, luminance};
 pub use entrance::{EntranceFactor, Knee, LEAST_COSINE};
 pub use error::Error;
