@@ -19,6 +19,7 @@
 //! - Values are in the SI units of their [`Quantity`]: cd/lx/m2, cd/lx, 1/sr or 1. Other units end where text is read.
 
 mod aperture;
+pub mod brdf;
 mod cells;
 mod colour;
 mod entrance;
