@@ -26,10 +26,10 @@ use crate::Error;
 
 /// The widest aperture, radians: the rule is made for small angles.
 const MAX_DIAMETER: f64 = 0.35;
-/// Gauss' nodes along the radius.
-const RADII: usize = 4;
-/// Nodes around it.
-const AZIMUTHS: usize = 16;
+/// Degree of the polynomials that the rule is exact for.
+const DEGREE: usize = 15;
+/// The highest degree that Gauss' nodes are computed for: 24 of them.
+const MAX_DEGREE: usize = 95;
 /// Sines below which two directions have no plane of their own.
 const PARALLEL: f64 = 1e-12;
 
@@ -61,10 +61,18 @@ impl Apertures {
     /// # Errors
     /// An aperture that is negative, NaN or above 0.35 (20 degrees).
     pub fn rule(self) -> Result<ApertureRule, Error> {
-        self.rule_of(RADII, AZIMUTHS)
+        self.rule_of_degree(DEGREE)
     }
 
-    fn rule_of(self, radii: usize, azimuths: usize) -> Result<ApertureRule, Error> {
+    /// The rule that is exact for polynomials up to a degree, at most 95, which takes about a quarter of its square of
+    /// points. Degree 7, 16 points, is within 1e-4 for lobes twice as wide as the aperture, and 4e-3 for those as wide.
+    ///
+    /// # Errors
+    /// As [`Apertures::rule`].
+    pub fn rule_of_degree(self, degree: usize) -> Result<ApertureRule, Error> {
+        let degree = degree.min(MAX_DEGREE);
+        // Odd powers of the radius vanish around the circle: n nodes in its square are exact to the power 4 n - 2.
+        let (radii, azimuths) = ((degree / 2 + 2) / 2, degree + 1);
         for (name, diameter) in [("source", self.source), ("receiver", self.receiver)] {
             if !(0.0..=MAX_DIAMETER).contains(&diameter) {
                 return Err(Error::Aperture { name, degrees: diameter.to_degrees() });
@@ -112,7 +120,7 @@ impl ApertureRule {
     /// Pairs of directions (receiver, source) around the axes `wo` and `wi` (unit vectors), and their weights, which add
     /// up to 1.
     ///
-    /// Exact for polynomials in the difference of the two offsets up to degree 15 (for equal apertures also times a
+    /// Exact for polynomials in the difference of the two offsets up to the rule's degree, 15 (for equal apertures also times a
     /// linear function of their sum).
     pub fn directions(
         &self,
@@ -308,7 +316,7 @@ mod tests {
         geometry: Geometry,
         value: impl Fn(Vec3<f64>, Vec3<f64>) -> f64,
     ) -> f64 {
-        let fine = |apertures: Apertures| apertures.rule_of(8, 32).unwrap();
+        let fine = |apertures: Apertures| apertures.rule_of_degree(31).unwrap();
         let receiver = fine(Apertures { source: 0.0, ..apertures });
         let source = fine(Apertures { receiver: 0.0, ..apertures });
         let Geometry { wo, wi } = geometry;

@@ -29,6 +29,7 @@ mod geometry;
 mod mtlx;
 pub mod half_power;
 mod integral;
+pub mod openmaterial;
 mod quantity;
 mod sheeting;
 pub mod standards;
