@@ -73,9 +73,12 @@ impl Apertures {
         let degree = degree.min(MAX_DEGREE);
         // Odd powers of the radius vanish around the circle: n nodes in its square are exact to the power 4 n - 2.
         let (radii, azimuths) = ((degree / 2 + 2) / 2, degree + 1);
-        for (name, diameter) in [("source", self.source), ("receiver", self.receiver)] {
+        for (name, diameter) in
+            [("the source's aperture", self.source), ("the receiver's aperture", self.receiver)]
+        {
             if !(0.0..=MAX_DIAMETER).contains(&diameter) {
-                return Err(Error::Aperture { name, degrees: diameter.to_degrees() });
+                let range = "[0, 0.35] radians, which is [0, 20] degrees";
+                return Err(Error::Range { name, value: diameter, range });
             }
         }
         let disks = Disks { source: 0.5 * self.source, receiver: 0.5 * self.receiver };

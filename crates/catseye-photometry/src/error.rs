@@ -44,14 +44,6 @@ pub enum Error {
         /// What is wrong, and the way out.
         problem: String,
     },
-    /// An aperture that the quadrature is not made for.
-    #[error("the {name}'s aperture is {degrees} degrees: it must be from 0 (a point) to 20")]
-    Aperture {
-        /// `source` or `receiver`.
-        name: &'static str,
-        /// The full angle.
-        degrees: f64,
-    },
     /// A quantity by a name that isn't known.
     #[error("{name:?} is not a quantity; known are {known}")]
     UnknownQuantity {

@@ -17,7 +17,7 @@ use std::path::Path;
 
 use catseye::Vec3;
 
-use crate::Error;
+use crate::{Error, luminance};
 
 pub use metrics::{Metrics, metrics};
 pub use reciprocity::Reciprocity;
@@ -25,8 +25,6 @@ pub use selection::Selection;
 
 /// Bytes of the largest file that is read: MERL's have 33 MiB, with 360 azimuths 67.
 const LARGEST: u64 = 80 << 20;
-/// Luminance of linear Rec. 709 primaries (ITU-R BT.709-6, item 3.3).
-const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
 /// A measured value of a BRDF.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,7 +42,7 @@ impl BrdfSample {
     /// The value for white light, in 1/sr.
     #[must_use]
     pub fn luminance(&self) -> f64 {
-        self.value.iter().zip(LUMINANCE).map(|(value, weight)| value * weight).sum()
+        luminance(self.value)
     }
 }
 

@@ -7,6 +7,7 @@ use std::path::Path;
 use serde_json::{Value, json};
 
 use super::Metadata;
+use crate::half_power::roughness_from_half_power_angle;
 use crate::table::Need;
 use crate::{Error, Table};
 
@@ -46,13 +47,10 @@ impl Assumption {
 
     /// The roughness of a lobe with this half-power angle.
     ///
-    /// At entrance angle 0 the lobe is `(1 - sin^2(alpha/2))^(n+1)` up to factors that change by less than 1e-4 below a
-    /// degree: docs/theory.md, section 2.
-    #[must_use]
-    pub fn roughness(&self) -> f64 {
-        let half = (0.5 * self.half_power_deg.to_radians()).sin();
-        let width_squared = (-half * half).ln_1p() / 0.5_f64.ln();
-        (2.0 * width_squared / (1.0 - width_squared)).sqrt()
+    /// # Errors
+    /// As [`roughness_from_half_power_angle`].
+    pub fn roughness(&self) -> Result<f64, Error> {
+        roughness_from_half_power_angle(self.half_power_deg.to_radians())
     }
 }
 
