@@ -18,6 +18,8 @@
 //! - Everything is `f64`: a goniometer's angles are tenths of a degree, whose cosines differ from 1 in the sixth digit.
 //! - Values are in the SI units of their [`Quantity`]: cd/lx/m2, cd/lx, 1/sr or 1. Other units end where text is read.
 
+mod aperture;
+pub mod brdf;
 mod cells;
 mod colour;
 mod entrance;
@@ -27,6 +29,7 @@ mod geometry;
 mod mtlx;
 pub mod half_power;
 mod integral;
+pub mod openmaterial;
 mod quantity;
 mod sheeting;
 pub mod standards;
@@ -34,6 +37,7 @@ mod table;
 mod unit;
 pub mod verdict;
 
+pub use aperture::{ApertureRule, Apertures};
 pub use colour::{Colour, ColourError, LUMINANCE, luminance};
 pub use entrance::{EntranceFactor, Knee, LEAST_COSINE};
 pub use error::Error;

@@ -25,6 +25,16 @@ pub enum Error {
         /// Its legal values.
         range: &'static str,
     },
+    /// A size or direction of the retroreflectometer is not what it must be.
+    #[error("retroreflectometer: {name} is {value}, not {expected}")]
+    Instrument {
+        /// The field of [`Retroreflectometer`](crate::Retroreflectometer), or the direction.
+        name: &'static str,
+        /// Its value; of a direction the length.
+        value: f64,
+        /// What it must be.
+        expected: &'static str,
+    },
     /// A retro-reflective lobe has a parameter outside its range.
     #[error("retro_reflective_bsdf: {0}")]
     Parameter(#[from] catseye::ParamError),
