@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use catseye_photometry::brdf::{Metrics, metrics};
 use catseye_photometry::fit::{EntranceKind, Fit, Form, Observation};
 use catseye_photometry::half_power::half_power_angle;
 use serde_json::{Value, json};
@@ -26,16 +27,30 @@ pub(crate) struct Outcome<'a> {
 impl Outcome<'_> {
     /// One sentence: how good the fit is.
     pub(crate) fn verdict(&self) -> String {
-        let (rows, worst, rms) = (self.subject.rows.len(), percent(self.fit.worst), percent(self.fit.rms));
+        let (rows, worst, rms) = (self.observations.len(), percent(self.fit.worst), percent(self.fit.rms));
         let word = if self.fit.acceptable { "accepted" } else { "not accepted" };
         let tolerance = percent(self.tolerance);
         format!("{word}: worst of {rows} values {worst} off, rms {rms}, tolerance {tolerance}")
     }
 
+    /// How good the model of a measured BRDF is.
+    pub(crate) fn metrics(&self) -> Option<Metrics> {
+        let pairs = self.observations.iter().zip(&self.fit.ratios);
+        let found = metrics(pairs.map(|(row, ratio)| (row.value * ratio, row.value)));
+        found.filter(|_| self.subject.is_brdf())
+    }
+
+    /// The same in words.
+    pub(crate) fn accuracy(&self) -> Option<String> {
+        let Metrics { nrmse, log_rmse, count } = self.metrics()?;
+        Some(format!("of {count} samples: NRMSE {nrmse:.4}, log-RMSE {log_rmse:.3}"))
+    }
+
     /// Why the tolerance can't be met, where that is known.
     pub(crate) fn why_not(&self) -> Option<String> {
         let bound = self.fit.shape?;
-        let [first, middle, last] = bound.rows.map(|row| &self.subject.rows[row]);
+        let [first, middle, last] = bound.rows.map(|row| self.subject.rows.get(row));
+        let (first, middle, last) = (first?, middle?, last?);
         Some(format!(
             "no sum of lobes comes closer than {} to the values at entrance {} deg and observation {}, {} and {} deg \
              ({}, {}, {}): they fall slowly at first and then fast, and a sum of lobes does the reverse",
@@ -89,6 +104,20 @@ impl Outcome<'_> {
                 let _ = writeln!(text, "{name:<28} {:>8} deg", short(angle.to_degrees()));
             }
         }
+        self.rows(&mut text);
+        let _ = write!(text, "\n{}", self.verdict());
+        let more = [self.accuracy(), self.why_not(), self.comparison(), self.view_form()];
+        for line in more.into_iter().flatten().chain(self.warnings()) {
+            let _ = write!(text, "\n{line}");
+        }
+        text
+    }
+
+    /// The values one by one.
+    fn rows(&self, text: &mut String) {
+        if self.subject.rows.is_empty() {
+            return;
+        }
         let _ = writeln!(text, "\nobservation   entrance   rotation  quantity        value        model   model/value");
         for (row, ratio) in self.subject.rows.iter().zip(&self.fit.ratios) {
             let value = row.value_as_written().unwrap_or(f64::NAN);
@@ -103,16 +132,11 @@ impl Outcome<'_> {
                 short(value * ratio),
             );
         }
-        let _ = write!(text, "\n{}", self.verdict());
-        let more = [self.why_not(), self.comparison(), self.view_form()];
-        for line in more.into_iter().flatten().chain(self.warnings()) {
-            let _ = write!(text, "\n{line}");
-        }
-        text
     }
 
     fn warnings(&self) -> impl Iterator<Item = String> {
-        self.fit.warnings.iter().map(|warning| format!("warning: {warning}"))
+        let all = self.subject.remarks.iter().chain(&self.fit.warnings);
+        all.map(|warning| format!("warning: {warning}"))
     }
 
     /// The result for programs.
@@ -140,7 +164,8 @@ impl Outcome<'_> {
             "numbers": self.fit.estimates.iter().map(estimate).collect::<Vec<_>>(),
             "rows": self.subject.rows.iter().zip(&self.fit.ratios).map(row).collect::<Vec<_>>(),
             "view_form_cost": self.fit.cost_of_view_form(self.observations),
-            "why_not": self.why_not(), "back_vector": beside, "warnings": self.fit.warnings,
+            "nrmse": self.metrics().map(|m| m.nrmse), "log_rmse": self.metrics().map(|m| m.log_rmse),
+            "remarks": self.subject.remarks, "why_not": self.why_not(), "back_vector": beside, "warnings": self.fit.warnings,
         })
     }
 }

@@ -25,13 +25,17 @@ pub(crate) fn page(outcome: &Outcome<'_>) -> anyhow::Result<String> {
     );
     let class = if fit.acceptable { "good" } else { "off" };
     let _ = writeln!(html, "<p class=\"{class}\">{}</p>", escaped(&outcome.verdict()));
-    for line in [outcome.why_not(), outcome.view_form()].into_iter().flatten().chain(fit.warnings.clone()) {
+    let said = [outcome.accuracy(), outcome.why_not(), outcome.view_form()];
+    let remarks = outcome.subject.remarks.iter().chain(&fit.warnings).cloned();
+    for line in said.into_iter().flatten().chain(remarks) {
         let _ = writeln!(html, "<p>{}</p>", escaped(&line));
     }
     html.push_str("<h2>Numbers</h2>\n");
     numbers(&mut html, fit);
-    html.push_str("<h2>Values</h2>\n");
-    values(&mut html, outcome);
+    if !outcome.subject.rows.is_empty() {
+        html.push_str("<h2>Values</h2>\n");
+        values(&mut html, outcome);
+    }
     html.push_str("<h2>Models that were tried</h2>\n");
     trials(&mut html, &fit.trials, "");
     if let Some(beside) = outcome.beside {

@@ -1,11 +1,16 @@
-//! What is fitted: the rows of one material, from a file or a standard.
+//! What is fitted: the rows of one material, or a measured BRDF, from a file or a standard.
 
 use std::path::Path;
 
 use anyhow::{Context as _, anyhow, bail};
+use catseye_photometry::brdf::{Brdf, Cosine, Selection};
 use catseye_photometry::fit::{Aim, Observation};
+use catseye_photometry::openmaterial::{Assumption, OpenMaterial};
 use catseye_photometry::standards::Catalogue;
-use catseye_photometry::{Colour, Limit, Need, Quantity, Row, Table};
+use catseye_photometry::{ApertureRule, Colour, Limit, Need, Quantity, Row, Table};
+
+/// Samples of a measured BRDF that a fit looks at: more of them make it slower and no better.
+const BRDF_SAMPLES: usize = 400;
 
 /// The values of one material.
 #[derive(Clone, Debug)]
@@ -14,21 +19,51 @@ pub(crate) struct Subject {
     pub(crate) name: String,
     /// What the rows say they are of, such as `ASTM D4956-01 Type I white`; empty where they say nothing.
     pub(crate) title: String,
-    /// The rows with values that can be fitted.
+    /// The rows with values that can be fitted; none of a measured BRDF, which has too many to list.
     pub(crate) rows: Vec<Row>,
+    /// The measured BRDF, where it is one.
+    brdf: Option<Brdf>,
+    /// The roughness that goes with the values, where the file's format says so little that one is assumed.
+    pub(crate) roughness: Option<f64>,
+    /// What was assumed, a sentence each.
+    pub(crate) remarks: Vec<String>,
 }
 
 impl Subject {
-    /// The material that `name` means: a CSV file, or else a class of a standard.
-    pub(crate) fn find(name: &str, only: Option<&str>) -> anyhow::Result<Self> {
+    /// The material that `name` means: a file, of a kind that its ending tells, or else a class of a standard.
+    pub(crate) fn find(name: &str, only: Option<&str>, cosine: Cosine) -> anyhow::Result<Self> {
         let path = Path::new(name);
-        let is_file = path.exists() || path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
-        let table = if is_file {
-            Table::read(path, Need::Values)?
-        } else {
-            Catalogue::embedded()?.find(name)?.table().clone()
-        };
-        Self::of_table(&table, only)
+        let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
+        match ending.as_str() {
+            "csv" => Self::of_table(&Table::read(path, Need::Values)?, only),
+            "xomp" => Self::of_open_material(path),
+            "dat" | "alta" | "binary" => Self::of_brdf(path, cosine),
+            _ if path.is_file() => Self::of_table(&Table::read(path, Need::Values)?, only),
+            _ => Self::of_table(Catalogue::embedded()?.find(name)?.table(), only),
+        }
+    }
+
+    fn of_open_material(path: &Path) -> anyhow::Result<Self> {
+        let material = OpenMaterial::read(path)?;
+        let assumption = Assumption::default();
+        let subject = Self::of_table(&material.table(&assumption)?, None)?;
+        let title = if material.name.is_empty() { subject.title } else { material.name };
+        Ok(Self {
+            title,
+            roughness: Some(assumption.roughness()?),
+            remarks: vec![assumption.sentence()],
+            ..subject
+        })
+    }
+
+    fn of_brdf(path: &Path, cosine: Cosine) -> anyhow::Result<Self> {
+        let brdf = Brdf::read(path, cosine)?;
+        let (name, mut remarks) = (brdf.name.clone(), brdf.remarks.clone());
+        let skipped = brdf.skipped.invalid + brdf.skipped.below_horizon;
+        if skipped > 0 {
+            remarks.push(format!("{skipped} samples are negative, not finite or below the surface, and left out"));
+        }
+        Ok(Self { title: String::new(), name, rows: Vec::new(), brdf: Some(brdf), roughness: None, remarks })
     }
 
     fn of_table(table: &Table, only: Option<&str>) -> anyhow::Result<Self> {
@@ -46,12 +81,34 @@ impl Subject {
         if only.is_none() && !rows.iter().all(is_class) && !is_joined(&rows) {
             bail!("{}: holds several materials; choose one with --only: {}", table.name(), titles(&rows));
         }
-        Ok(Self { name: table.name().to_owned(), title: title(first), rows })
+        Ok(Self {
+            name: table.name().to_owned(),
+            title: title(first),
+            rows,
+            brdf: None,
+            roughness: None,
+            remarks: Vec::new(),
+        })
     }
 
-    /// The colour that the rows name, or white.
+    /// The colour that the rows name or the samples have near the retro direction, or white.
     pub(crate) fn colour(&self) -> Colour {
-        self.rows.first().and_then(|row| Colour::named(&row.colour)).unwrap_or(Colour::WHITE)
+        let measured = self.brdf.as_ref().and_then(|brdf| {
+            let samples = self.selection().of(brdf);
+            let sum = |channel: usize| samples.iter().map(|sample| sample.value[channel]).sum();
+            Colour::from_rec709([sum(0), sum(1), sum(2)])
+        });
+        let named = || self.rows.first().and_then(|row| Colour::named(&row.colour));
+        measured.or_else(named).unwrap_or(Colour::WHITE)
+    }
+
+    fn selection(&self) -> Selection {
+        Selection { count: BRDF_SAMPLES, ..Selection::default() }
+    }
+
+    /// Whether the values are those of a measured BRDF.
+    pub(crate) fn is_brdf(&self) -> bool {
+        self.brdf.is_some()
     }
 
     /// Where the values come from, each source once.
@@ -65,21 +122,24 @@ impl Subject {
         sources
     }
 
-    /// The rows as a fit sees them.
+    /// The values as a fit sees them, through the apertures of the instrument.
     pub(crate) fn observations(
         &self,
         limits: bool,
         area_m2: Option<f64>,
+        apertures: &ApertureRule,
     ) -> anyhow::Result<Vec<Observation>> {
+        if let Some(brdf) = &self.brdf {
+            return Ok(self.selection().observations(brdf, apertures));
+        }
         let observation = |row: &Row| {
             let aim = match (row.limit, limits) {
                 (Limit::Minimum, true) => Aim::AtLeast,
                 (Limit::Maximum, _) => Aim::AtMost,
                 _ => Aim::Equal,
             };
-            Observation::from_row(row, aim, area_m2).map_err(|error| {
-                anyhow!(error).context(format!("{}:{}", self.name, row.line))
-            })
+            let seen = Observation::from_row(row, aim, area_m2).map(|row| row.through(apertures));
+            seen.map_err(|error| anyhow!(error).context(format!("{}:{}", self.name, row.line)))
         };
         let observations: anyhow::Result<Vec<_>> = self.rows.iter().map(observation).collect();
         if area_m2.is_none() && self.rows.iter().any(|row| row.quantity == Quantity::LuminousIntensity) {

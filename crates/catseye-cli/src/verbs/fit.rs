@@ -6,13 +6,19 @@ use anyhow::bail;
 use catseye::Model;
 use catseye_photometry::fit::{EntranceKind, Fit, FitOptions, Observation, fit};
 use catseye_photometry::half_power::roughness_from_half_power_angle;
-use catseye_photometry::{Colour, MaterialText, Quantity, to_mtlx};
+use catseye_photometry::brdf::Cosine;
+use catseye_photometry::{Apertures, Colour, MaterialText, Quantity, to_mtlx};
 use clap::ValueEnum;
 
 use crate::failure::Usage;
 use crate::fitting::{Outcome, Subject, page};
 use crate::output::Output;
 use crate::{help, report};
+
+/// Percent by which a model of a measured BRDF may be off on average: what three lobes make of real tapes.
+const BRDF_TOLERANCE: f64 = 30.0;
+/// Degree of the aperture's rule for measured BRDFs.
+const BRDF_RULE: usize = 7;
 
 /// Fit a material to coefficients of retro-reflection, of a CSV table or of a standard's class
 ///
@@ -24,7 +30,7 @@ use crate::{help, report};
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::FIT)]
 pub(crate) struct Args {
-    /// CSV file, or STANDARD:CLASS:COLOUR
+    /// CSV file, STANDARD:CLASS:COLOUR, ALTA .dat or MERL .binary of a measured BRDF, or ASAM OpenMATERIAL .xomp
     #[arg(value_name = "TABLE|STANDARD")]
     subject: String,
     /// Write the material to this .mtlx file
@@ -42,9 +48,9 @@ pub(crate) struct Args {
     /// How the strength depends on the entrance angle
     #[arg(long, value_enum, default_value_t)]
     entrance: Entrance,
-    /// The worst error that is accepted, in percent
-    #[arg(long, value_name = "PERCENT", default_value_t = 5.0)]
-    tolerance: f64,
+    /// The worst error that is accepted, in percent; of a measured BRDF the root mean square [default: 5, of a BRDF 30]
+    #[arg(long, value_name = "PERCENT")]
+    tolerance: Option<f64>,
     /// Meet minima as lower limits instead of as values
     #[arg(long)]
     at_least: bool,
@@ -63,6 +69,12 @@ pub(crate) struct Args {
     /// Area of the whole reflector, which coefficients of luminous intensity are of
     #[arg(long, value_name = "M2")]
     area_m2: Option<f64>,
+    /// Full angle of the instrument's source and receiver apertures in degrees
+    #[arg(long, value_name = "DEG", default_value_t = 0.0)]
+    aperture_deg: f64,
+    /// Whether the values of an ALTA file include the receiver's cosine [default: what its header says]
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, default_missing_value = "true")]
+    cosine: Option<bool>,
     /// Lobe model
     #[arg(long, value_enum, default_value_t)]
     model: FitModel,
@@ -101,12 +113,19 @@ enum FitModel {
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
         let options = self.options()?;
-        let mut subject = Subject::find(&self.subject, self.only.as_deref())?;
+        let cosine = match self.cosine {
+            None => Cosine::AsStated,
+            Some(true) => Cosine::Included,
+            Some(false) => Cosine::Excluded,
+        };
+        let mut subject = Subject::find(&self.subject, self.only.as_deref(), cosine)?;
         let colour = self.colour.unwrap_or_else(|| subject.colour());
         let observations = self.observations(&mut subject)?;
         let options = FitOptions {
-            diffuse: self.luminance_factor.is_some() || subject.has_luminance_factor(),
+            diffuse: self.luminance_factor.is_some() || subject.has_luminance_factor() || subject.is_brdf(),
             channel_peak: colour.peak(),
+            roughness: options.roughness.or(subject.roughness),
+            tolerance: 0.01 * self.tolerance.unwrap_or(if subject.is_brdf() { BRDF_TOLERANCE } else { 5.0 }),
             ..options
         };
         let material = self.output.as_deref().map(Output::new).transpose()?;
@@ -164,7 +183,6 @@ impl Args {
             entrance,
             roughness: roughness.transpose()?,
             coat_ior: self.coat,
-            tolerance: 0.01 * self.tolerance,
             ..FitOptions::default()
         })
     }
@@ -188,7 +206,10 @@ impl Args {
                 ..row
             }));
         }
-        subject.observations(self.at_least, self.area_m2)
+        let apertures = Apertures::both_deg(self.aperture_deg);
+        // A BRDF's samples are many, and its lobes wide beside any sensible aperture.
+        let rule = if subject.is_brdf() { apertures.rule_of_degree(BRDF_RULE) } else { apertures.rule() }?;
+        subject.observations(self.at_least, self.area_m2, &rule)
     }
 
     fn document(&self, outcome: &Outcome<'_>, colour: Colour) -> String {

@@ -79,6 +79,13 @@ pub(crate) struct Unknown {
     pub(crate) prior: [f64; 2],
 }
 
+impl Unknown {
+    /// How far a value is from where ignorance puts it.
+    pub(crate) fn surprise(&self, x: f64) -> f64 {
+        (x - self.prior[0]) / self.prior[1]
+    }
+}
+
 impl Meaning {
     /// Whether the number is the logarithm of the quantity.
     #[must_use]

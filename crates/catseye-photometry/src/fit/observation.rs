@@ -2,7 +2,7 @@
 
 use catseye::Vec3;
 
-use crate::{Quantity, Row};
+use crate::{ApertureRule, Quantity, Row};
 
 /// Whether a value is met or only bounded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -55,6 +55,19 @@ impl Observation {
         };
         let value = row.value.ok_or(RowError::NoValue)?;
         Ok(Self { value, aim, views: vec![View { wo: geometry.wo, wi: geometry.wi, factor }] })
+    }
+}
+
+impl Observation {
+    /// The same value as the mean over an instrument's apertures instead of between points.
+    #[must_use]
+    pub fn through(&self, apertures: &ApertureRule) -> Self {
+        let spread = |view: &View| {
+            let factor = view.factor;
+            let directions = apertures.directions(view.wo, view.wi);
+            directions.map(move |(wo, wi, weight)| View { wo, wi, factor: factor * weight }).collect::<Vec<_>>()
+        };
+        Self { views: self.views.iter().flat_map(spread).collect(), ..self.clone() }
     }
 }
 

@@ -210,7 +210,7 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
         let data = logs.iter().enumerate().map(|(row, &log)| self.weight(row, log) * log);
         let energy = ENERGY_WEIGHT * self.energy_excess();
         let x = self.x();
-        let surprise = |(unknown, x): (&Unknown, &f64)| PRIOR_WEIGHT * (x - unknown.prior[0]) / unknown.prior[1];
+        let surprise = |(unknown, x): (&Unknown, &f64)| PRIOR_WEIGHT * unknown.surprise(*x);
         let priors = self.unknowns.iter().zip(&x).map(surprise);
         Some(DVector::from_iterator(self.rows(), data.chain([energy]).chain(priors)))
     }

@@ -72,16 +72,13 @@ pub(crate) fn solve(
             let worst = solution.worst;
             let done = worst <= tolerance || observations.len() > TABLE_ROWS;
             reweight(&mut problem.weights, observations, &solution);
-            if best.as_ref().is_none_or(|best| solution.is_better_than(best)) {
+            if best.as_ref().is_none_or(|best| solution.is_better_than(best, tolerance)) {
                 best = Some(solution);
             }
             (least, idle) = if worst < PROGRESS * least { (worst, 0) } else { (least, idle + 1) };
             if done || idle == IDLE_ROUNDS {
                 break;
             }
-        }
-        if best.as_ref().is_some_and(|best| best.worst <= tolerance) {
-            break;
         }
     }
     best
@@ -113,8 +110,22 @@ fn solution(
 }
 
 impl Solution {
-    fn is_better_than(&self, other: &Self) -> bool {
-        if self.log_ratios.len() > TABLE_ROWS { self.rms < other.rms } else { self.worst < other.worst }
+    /// Of two that meet the tolerance the more probable one is better, taking the tolerance for the standard deviation:
+    /// a table of few rows is met in many ways, most of them odd.
+    fn is_better_than(&self, other: &Self, tolerance: f64) -> bool {
+        if self.log_ratios.len() > TABLE_ROWS {
+            self.rms < other.rms
+        } else if self.worst.max(other.worst) <= tolerance {
+            self.improbability(tolerance) < other.improbability(tolerance)
+        } else {
+            self.worst < other.worst
+        }
+    }
+
+    fn improbability(&self, tolerance: f64) -> f64 {
+        let rows = self.log_ratios.len() as f64 * (self.rms / tolerance).powi(2);
+        let numbers = self.form.unknowns().into_iter().zip(&self.x);
+        rows + numbers.map(|(unknown, x)| unknown.surprise(*x).powi(2)).sum::<f64>()
     }
 
     /// The numbers that were free.
