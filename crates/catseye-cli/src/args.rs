@@ -3,7 +3,9 @@
 use catseye::Model;
 use clap::{Parser, Subcommand, ValueEnum};
 
-use crate::verbs::{albedo, eval, fit, furnace, materialx, plot, render, sample};
+use crate::verbs::{
+    albedo, eval, fit, furnace, materialx, measure, plot, render, roughness, sample, standards,
+};
 
 /// The retro-reflective BSDF: evaluate it, sample it, plot it, render with it.
 #[derive(Debug, Parser)]
@@ -26,8 +28,11 @@ enum Verb {
     Eval(eval::Args),
     Sample(sample::Args),
     Albedo(albedo::Args),
-    Plot(plot::Args),
+    Measure(measure::Args),
     Fit(fit::Args),
+    Standards(standards::Args),
+    Roughness(roughness::Args),
+    Plot(plot::Args),
     Materialx(materialx::Args),
 }
 
@@ -40,8 +45,11 @@ impl Cli {
             Verb::Eval(args) => args.run(),
             Verb::Sample(args) => args.run(),
             Verb::Albedo(args) => args.run(),
-            Verb::Plot(args) => args.run(),
+            Verb::Measure(args) => args.run(),
             Verb::Fit(args) => args.run(),
+            Verb::Standards(args) => args.run(),
+            Verb::Roughness(args) => args.run(),
+            Verb::Plot(args) => args.run(),
             Verb::Materialx(args) => args.run(),
         }
     }

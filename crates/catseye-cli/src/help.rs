@@ -1,4 +1,4 @@
-//! The examples that `--help` ends with, and the format of the tables. A test runs every example.
+//! The examples that `--help` ends with, and the formats of the tables. A test runs every example.
 
 /// Examples of `catseye render`.
 pub(crate) const RENDER: &str = "\
@@ -32,6 +32,60 @@ Example:
   roughness_u,wo_x,wo_y,wo_z,albedo_r,albedo_g,albedo_b
   1,0,0,1,0.3553233343868754,0.3553233343868754,0.3553233343868754";
 
+/// Example of `catseye standards`.
+pub(crate) const STANDARDS: &str = "\
+Example:
+  $ catseye standards list iso20471
+  ISO 20471
+    Intertraffic World 2020 p. 172, journal-download.co.uk/digitalmagazines/ITW/ITW01NOV2019/page_172.html
+    iso20471:separate:white  16 values of R_A (minimum) at observation 0.2 0.333 1 1.5, entrance 5 20 30 40";
+
+/// Example of `catseye standards list`.
+pub(crate) const STANDARDS_LIST: &str = STANDARDS;
+
+/// Example of `catseye standards show`.
+pub(crate) const STANDARDS_SHOW: &str = "\
+Example:
+  $ catseye standards show ansi-107:level-2 | cut -d, -f1-11
+  id,standard,revision,class,colour,observation_deg,entrance_deg,quantity,value,unit,limit
+  ansi-107:level-2:white,ANSI/ISEA 107,not stated,Level 2,white (silver),0.2,5,R_A,330,cd/lx/m2,minimum";
+
+/// Example of `catseye roughness`.
+pub(crate) const ROUGHNESS: &str = "\
+Example:
+  $ catseye roughness --half-power-deg 0.4 --ra 250 --at-deg 0.2
+  roughness         0.00592964
+  half-power angle  0.4 deg (full width 0.8 deg)
+  tint              0.0656788
+  peak R_A          297.301 cd/lx/m2";
+
+const MEASURE: &str = "\
+Example:
+  $ catseye measure materials/sheeting.mtlx --standard fmvss108:dot-c2:white
+  $ catseye measure materials/sheeting.mtlx --verdict";
+
+const VALUES: &str = "\
+Table format:
+  A header line, then one row per geometry or value; columns in any order:
+    observation_deg   between source and receiver, in [0, 180)
+    entrance_deg      between source and surface normal, in (-90, 90); above 0
+                      the normal is tipped towards the receiver
+    rotation_deg      of the sample about its normal, in [-360, 360] [default: 0]
+    quantity          R_A, R_L, R_I, R_Phi, R_T, Q_d, Y or f [default: by the unit]
+    unit              cd/lx/m2, mcd/lx/m2, cd/fc/ft2, cd/lx, mcd/lx, cd/fc, 1/sr,
+                      1 or % [default: cd/lx/m2]
+    value             needed where values are compared
+    limit             minimum, maximum or typical
+    standard, class, colour, source
+  - Other columns are carried through; one named model is replaced.
+  - An empty cell is a missing one. A bad row is an error that names line and
+    column; nothing is printed then.";
+
+/// The format of tables of values, and an example of `catseye measure`.
+pub(crate) fn measure() -> String {
+    format!("{VALUES}\n\n{MEASURE}")
+}
+
 /// Example of `catseye plot`.
 pub(crate) const PLOT: &str = "\
 Example:
@@ -56,6 +110,13 @@ Example:
   $ catseye fit astm-d4956:iii:white --luminance-factor 0.27 -o sign.mtlx --report sign.html
   $ printf 'observation_deg,entrance_deg,value,unit\\n0.2,5,250,cd/lx/m2\\n0.5,5,95,cd/lx/m2\\n' > sheet.csv
   $ catseye fit sheet.csv -o sheet.mtlx";
+
+/// Example of `catseye plot ra`.
+pub(crate) const PLOT_RA: &str = "\
+Example:
+  $ catseye plot ra --roughness 0.0057 --tint 0.063 --standard astm-d4956:iii:white -o ra.svg
+  wrote ra.svg (960 x 640)
+  $ catseye plot ra materials/sheeting.mtlx --standard fmvss108:dot-c2:white -o sheeting.png";
 
 /// Example of `catseye materialx`.
 pub(crate) const MATERIALX: &str = "\

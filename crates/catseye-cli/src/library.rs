@@ -1,9 +1,9 @@
 //! The MaterialX libraries that documents may use.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-use catseye_materialx::{Library, SearchPath};
+use catseye_materialx::{Document, Library, Material, SearchPath};
 
 /// Where MaterialX's libraries and the files of documents are.
 #[derive(Debug, clap::Args)]
@@ -22,5 +22,15 @@ impl LibraryArgs {
             SearchPath::new(self.folders.clone())
         };
         Library::load(search_path).map(Arc::new)
+    }
+
+    /// The material of a document, by its name where there are several. Warnings go to standard error.
+    pub(crate) fn material(&self, document: &Path, name: Option<&str>) -> anyhow::Result<Material> {
+        let document = Document::load_with(document, &self.load()?)?;
+        let material = document.material(name)?;
+        for warning in document.warnings().iter().chain(&material.warnings) {
+            eprintln!("catseye: warning: {warning}");
+        }
+        Ok(material)
     }
 }

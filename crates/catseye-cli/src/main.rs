@@ -11,6 +11,7 @@ mod input;
 mod layout;
 mod library;
 mod output;
+mod photometer;
 mod plot;
 mod point;
 mod progress;
@@ -18,6 +19,7 @@ mod query;
 mod reference;
 mod report;
 mod table;
+mod values;
 mod verbs;
 
 use std::process::ExitCode;

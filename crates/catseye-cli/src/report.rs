@@ -8,10 +8,14 @@ use serde_json::Value;
 pub(crate) fn print(json: bool, facts: &Value, text: &str) -> anyhow::Result<()> {
     let mut out = io::stdout().lock();
     if json {
-        serde_json::to_writer_pretty(&mut out, facts).map_err(io::Error::from)?;
-        writeln!(out)?;
+        out.write_all(self::json(facts)?.as_bytes())?;
     } else {
         writeln!(out, "{text}")?;
     }
     Ok(())
+}
+
+/// JSON as it is printed.
+pub(crate) fn json(facts: &Value) -> anyhow::Result<String> {
+    Ok(serde_json::to_string_pretty(facts)? + "\n")
 }

@@ -21,6 +21,12 @@ pub struct Catalogue {
 }
 
 impl Class {
+    /// A table of one's own as a class, whose id is the table's name; `None` for a table without rows.
+    #[must_use]
+    pub fn from_table(table: Table) -> Option<Self> {
+        (!table.rows().is_empty()).then(|| Self { id: table.name().to_owned(), table })
+    }
+
     /// The name, `standard:class:colour`: unique, in lower case, such as `fmvss108:dot-c2:white`.
     #[must_use]
     pub fn id(&self) -> &str {
@@ -39,13 +45,16 @@ impl Class {
         self.table.rows()
     }
 
-    /// The name for people, such as `FMVSS 108 Grade DOT-C2 white`.
+    /// The name for people, such as `FMVSS 108 Grade DOT-C2 white`; the id where the table has no words.
     #[must_use]
     pub fn title(&self) -> String {
         let first = &self.rows()[0];
         // What follows a comma is of a single row: a position, a condition.
         let class = first.class.split(", ").next().unwrap_or_default();
-        format!("{} {class} {}", first.standard, first.colour)
+        let words =
+            [first.standard.as_str(), class, &first.colour].into_iter().filter(|word| !word.is_empty());
+        let title = words.collect::<Vec<_>>().join(" ");
+        if title.is_empty() { self.id.clone() } else { title }
     }
 
     /// Standard, class and colour of the id.

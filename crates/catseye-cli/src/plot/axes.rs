@@ -33,6 +33,21 @@ impl Axes {
         &self,
         canvas: &Canvas<'_, DB>,
         [x_ticks, y_ticks]: [&[f64]; 2],
+        titles: [&str; 2],
+    ) -> anyhow::Result<()>
+    where
+        DB::ErrorType: 'static,
+    {
+        let y_ticks: Vec<(f64, String)> = y_ticks.iter().map(|&y| (y, signed(y))).collect();
+        self.draw_labelled(canvas, x_ticks, &y_ticks, titles)
+    }
+
+    /// As [`Axes::draw`], where the values from bottom to top are not what their labels say: logarithms.
+    pub(crate) fn draw_labelled<DB: DrawingBackend>(
+        &self,
+        canvas: &Canvas<'_, DB>,
+        x_ticks: &[f64],
+        y_ticks: &[(f64, String)],
         [x_title, y_title]: [&str; 2],
     ) -> anyhow::Result<()>
     where
@@ -45,10 +60,10 @@ impl Axes {
             canvas.line(&[(at, top), (at, bottom)], GRID, 1.0)?;
             canvas.text(&format!("{}°", signed(x)), (at, bottom + 16.0), Lettering::center(14.0, MUTED))?;
         }
-        for &y in y_ticks {
-            let (_, at) = self.place((*self.x.start(), y));
+        for (y, label) in y_ticks {
+            let (_, at) = self.place((*self.x.start(), *y));
             canvas.line(&[(left, at), (left + width, at)], GRID, 1.0)?;
-            canvas.text(&signed(y), (left - 8.0, at), Lettering::right(14.0, MUTED))?;
+            canvas.text(label, (left - 8.0, at), Lettering::right(14.0, MUTED))?;
         }
         canvas.line(&[(left, top), (left, bottom), (left + width, bottom)], INK, 1.5)?;
         canvas.text(x_title, (left + width / 2.0, bottom + 42.0), Lettering::center(15.0, INK))?;

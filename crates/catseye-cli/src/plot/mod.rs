@@ -1,7 +1,9 @@
 //! The diagrams of `catseye plot` and `catseye furnace`.
 
 pub(crate) mod albedo;
-mod axes;
+pub(crate) mod axes;
+mod curves;
 pub(crate) mod furnace;
 pub(crate) mod lobe;
 mod polar;
+pub(crate) mod ra;

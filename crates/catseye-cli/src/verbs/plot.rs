@@ -1,4 +1,4 @@
-//! `catseye plot`: pictures of the lobes and of their albedo.
+//! `catseye plot`: pictures of the lobes, of their albedo and of coefficients of retro-reflection.
 
 use std::path::{Path, PathBuf};
 
@@ -8,9 +8,10 @@ use clap::Subcommand;
 use crate::args::ModelArg;
 use crate::failure::Usage;
 use crate::plot::{albedo, lobe};
+use crate::verbs::plot_ra as ra;
 use crate::{figure, help, report};
 
-/// Plot the lobes or their albedo, as SVG or PNG
+/// Plot the lobes, their albedo or R_A, as SVG or PNG
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::PLOT, arg_required_else_help = true)]
 pub(crate) struct Args {
@@ -22,6 +23,8 @@ pub(crate) struct Args {
 enum What {
     Lobe(LobeArgs),
     Albedo(AlbedoArgs),
+    #[command(long_flag = "ra")]
+    Ra(Box<ra::Args>),
 }
 
 impl Args {
@@ -29,6 +32,7 @@ impl Args {
         match &self.what {
             What::Lobe(args) => args.run(),
             What::Albedo(args) => args.run(),
+            What::Ra(args) => args.run(),
         }
     }
 }
@@ -112,7 +116,8 @@ impl AlbedoArgs {
     }
 }
 
-fn finish(figure: &impl figure::Figure, path: &Path, json: bool) -> anyhow::Result<()> {
+/// Writes the picture and says so.
+pub(crate) fn finish(figure: &impl figure::Figure, path: &Path, json: bool) -> anyhow::Result<()> {
     figure::save(figure, path)?;
     let (width, height) = figure.size();
     let facts = serde_json::json!({ "output": path.display().to_string(), "width": width, "height": height });

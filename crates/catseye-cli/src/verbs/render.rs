@@ -4,7 +4,7 @@ use std::path::PathBuf;
 use std::time::Instant;
 
 use anyhow::bail;
-use catseye_materialx::{Document, Material};
+use catseye_materialx::Material;
 use catseye_render::{RenderSettings, Scene, ToneMap, render, write_exr, write_png};
 use clap::ValueEnum;
 use serde_json::json;
@@ -121,12 +121,7 @@ impl Args {
 
     fn load_material(&self) -> anyhow::Result<Option<Material>> {
         let Some(path) = &self.document else { return Ok(None) };
-        let document = Document::load_with(path, &self.library.load()?)?;
-        let material = document.material(self.material.as_deref())?;
-        for warning in document.warnings().iter().chain(&material.warnings) {
-            eprintln!("catseye: warning: {warning}");
-        }
-        Ok(Some(material))
+        self.library.material(path, self.material.as_deref()).map(Some)
     }
 
     /// Columns and rows that are rendered for one of a PNG and averaged behind the tone curve: an edge between sheeting

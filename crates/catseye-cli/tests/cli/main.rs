@@ -7,6 +7,7 @@ mod furnace_table;
 mod help;
 mod materialx_check;
 mod materialx_export;
+mod photometry;
 mod plots;
 mod readme;
 mod render_files;

@@ -53,3 +53,38 @@ fn a_lobe_without_width_is_refused() {
     );
     assert_eq!(bench.files(), [] as [&str; 0]);
 }
+
+#[test]
+fn coefficients_are_plotted_with_the_values_of_any_standard_or_table() {
+    let bench = Bench::with_materials();
+    bench.write("t.csv", "observation_deg,entrance_deg,value,unit\n0.2,5,200,cd/lx/m2\n45,45,0.3,1\n");
+    let cases = [
+        "plot ra --roughness 0.006 -o a.svg",
+        "plot ra --roughness inf --entrance -4,30 --observation 60 -o b.svg",
+        "plot ra materials/sheeting.mtlx --standard fmvss108:dot-c2:white -o c.png",
+        "plot ra materials/sheeting.mtlx --standard t.csv -o d.svg",
+        "plot ra materials/matte_white.mtlx --standard en1436:r3 -o e.svg",
+        "plot ra --roughness 0.0001 --tint 0 -o f.svg",
+    ];
+    for args in cases {
+        let outcome = bench.catseye(args, "");
+        assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""), "{args}");
+    }
+    for name in ["a.svg", "b.svg", "d.svg", "e.svg", "f.svg"] {
+        let text = fs::read_to_string(bench.path(name)).unwrap();
+        assert!(!text.contains("NaN") && !text.contains("inf"), "{name} has no undefined coordinate");
+    }
+    let refused = [
+        ("plot ra", 2, "--roughness"),
+        ("plot ra --roughness 0", 1, "perfect retro-reflector"),
+        ("plot ra --roughness 1 --entrance 90", 2, "--entrance takes 1 to 8 angles"),
+        ("plot ra --roughness 1 --observation 87", 2, "must be above 0 and less than 86"),
+        ("plot ra --roughness 1 --standard fmvss108:dot-c2", 1, "names several classes"),
+        ("plot ra --roughness 1 --standard fmvss108:reflex:red", 1, "has no values that are R_A"),
+    ];
+    for (args, code, message) in refused {
+        let outcome = bench.catseye(args, "");
+        assert_eq!(outcome.code, code, "{args}: {}", outcome.stderr);
+        assert!(outcome.stderr.contains(message), "{args}: {}", outcome.stderr);
+    }
+}

@@ -24,6 +24,20 @@ impl Bench {
         Self(tempfile::tempdir().unwrap())
     }
 
+    /// A folder with the repository's `materials`.
+    pub(crate) fn with_materials() -> Self {
+        let bench = Self::new();
+        let materials = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../materials");
+        fs::create_dir(bench.path("materials")).unwrap();
+        for entry in fs::read_dir(materials).unwrap() {
+            let entry = entry.unwrap();
+            if entry.path().is_file() {
+                fs::copy(entry.path(), bench.path("materials").join(entry.file_name())).unwrap();
+            }
+        }
+        bench
+    }
+
     pub(crate) fn path(&self, name: &str) -> PathBuf {
         self.0.path().join(name)
     }

@@ -76,6 +76,11 @@ impl Lobe {
         }
     }
 
+    /// Whether the lobe is about the direction that the light comes from.
+    pub(crate) fn sends_back(&self) -> bool {
+        self.retroreflective || matches!(self.kind, LobeKind::Retro(_))
+    }
+
     /// The direction that facets see.
     fn mirrored(&self, out: Outgoing) -> Outgoing {
         match self.retroreflective {

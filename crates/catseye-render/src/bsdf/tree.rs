@@ -76,6 +76,11 @@ impl Bsdf {
         Self { lobes: vec![Lobe::new(1.0, kind)], root: Node::Lobe(0) }
     }
 
+    /// Whether a lobe is a Dirac distribution in the direction that the light comes from.
+    pub(crate) fn has_retro_mirror(&self) -> bool {
+        self.lobes.iter().any(|lobe| lobe.is_dirac() && lobe.sends_back())
+    }
+
     /// Factors of the lobes' BSDFs, for a direction given in each lobe's own frame.
     pub(crate) fn shares(&self, out: &[Outgoing; MAX_LOBES]) -> [Vec3; MAX_LOBES] {
         let mut shares = [Vec3::ZERO; MAX_LOBES];

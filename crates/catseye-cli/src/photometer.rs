@@ -1,0 +1,74 @@
+//! What a photometer reads off a material.
+
+use std::f64::consts::FRAC_PI_2;
+
+use anyhow::{anyhow, bail};
+use catseye_photometry::{Geometry, Quantity, diffuse_luminance_coefficient, fractional_retro_reflectance};
+use catseye_render::Probe;
+use clap::ValueEnum;
+
+/// What is made of three colour channels.
+///
+/// Photometers measure in illuminant A; a material that is given in three channels can't say what changes in that light.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Channel {
+    /// 0.2126 R + 0.7152 G + 0.0722 B
+    #[default]
+    Luminance,
+    /// Red
+    R,
+    /// Green
+    G,
+    /// Blue
+    B,
+}
+
+impl Channel {
+    fn of(self, [r, g, b]: [f64; 3]) -> f64 {
+        match self {
+            Self::Luminance => luminance([r, g, b]),
+            Self::R => r,
+            Self::G => g,
+            Self::B => b,
+        }
+    }
+}
+
+/// A material on a goniometer, in closed form: source and receiver are points, far away.
+#[derive(Debug)]
+pub(crate) struct Photometer {
+    pub(crate) probe: Probe,
+    pub(crate) channel: Channel,
+    /// Area of a whole reflector in square metres, without which there is no `R_I`.
+    pub(crate) area: Option<f64>,
+}
+
+impl Photometer {
+    /// The BSDF in 1/sr.
+    pub(crate) fn brdf(&self, geometry: &Geometry) -> anyhow::Result<f64> {
+        Ok(self.channel.of(self.probe.eval(geometry.wo, geometry.wi)?))
+    }
+
+    /// The quantity in its SI unit.
+    pub(crate) fn measure(&self, quantity: Quantity, geometry: &Geometry) -> anyhow::Result<f64> {
+        let f = self.brdf(geometry)?;
+        let anywhere = |geometry: &Geometry| self.brdf(geometry).unwrap_or(f64::NAN);
+        let value = match quantity {
+            Quantity::LuminousIntensity => {
+                let r_a = Quantity::RetroReflectionCoefficient.from_brdf(f, geometry);
+                let Some(area) = self.area else {
+                    bail!("R_I is of a whole reflector, R_A times its area: say which with --area-m2");
+                };
+                r_a.map(|r_a| r_a * area)
+            }
+            Quantity::FractionalRetroReflectance => Some(fractional_retro_reflectance(
+                anywhere,
+                geometry.entrance(),
+                geometry.observation().min(FRAC_PI_2),
+            )),
+            Quantity::DaytimeLuminance => Some(diffuse_luminance_coefficient(anywhere, geometry.viewing())),
+            _ => quantity.from_brdf(f, geometry),
+        };
+        value.filter(|value| value.is_finite()).ok_or_else(|| anyhow!("{quantity} is not a finite number"))
+    }
+}

@@ -1,0 +1,37 @@
+//! What diagrams of several curves share: colours in an order, and labels at the curves' ends.
+
+use plotters::prelude::RGBColor;
+
+/// Least distance between the labels at the curves' ends.
+pub(crate) const LABEL_STEP: f64 = 22.0;
+
+/// A colour between dark blue and orange, all of them legible on white.
+pub(crate) fn shade(share: f64) -> RGBColor {
+    const STOPS: [[f64; 3]; 5] = [
+        [38.0, 38.0, 110.0],
+        [40.0, 110.0, 160.0],
+        [32.0, 150.0, 130.0],
+        [140.0, 150.0, 30.0],
+        [214.0, 96.0, 20.0],
+    ];
+    let position = share.clamp(0.0, 1.0) * (STOPS.len() - 1) as f64;
+    let below = (position as usize).min(STOPS.len() - 2);
+    let t = position - below as f64;
+    let [r, g, b] = [0, 1, 2].map(|c| (STOPS[below][c] * (1.0 - t) + STOPS[below + 1][c] * t).round() as u8);
+    RGBColor(r, g, b)
+}
+
+/// Ascending positions at least `step` apart and not below `least`, as near to the given ones as a sweep in each
+/// direction gets them.
+pub(crate) fn spread(positions: &[f64], step: f64, least: f64) -> Vec<f64> {
+    let mut down: Vec<f64> = Vec::with_capacity(positions.len());
+    for &position in positions {
+        down.push(down.last().map_or(position, |last| position.max(last + step)));
+    }
+    let mut up: Vec<f64> = Vec::with_capacity(positions.len());
+    for &position in positions.iter().rev() {
+        up.push(up.last().map_or(position, |last| position.min(last - step)));
+    }
+    let mean = down.iter().zip(up.iter().rev()).map(|(a, b)| 0.5 * (a + b));
+    mean.enumerate().map(|(i, position)| position.max(least + step * i as f64)).collect()
+}

@@ -1,0 +1,40 @@
+//! Tables of photometric values: a file, standard input, or a standard's name.
+
+use std::io::{self, Read as _};
+use std::path::Path;
+
+use anyhow::Context as _;
+use catseye_photometry::standards::{Catalogue, Class};
+use catseye_photometry::{Need, Row, Table};
+
+/// Bytes after which a table on standard input is too large for the library, which says so.
+const LARGEST: u64 = 1 << 25;
+
+/// Reads a CSV file, or standard input where it is `-`.
+pub(crate) fn read(path: &Path, need: Need) -> anyhow::Result<Table> {
+    if path != Path::new("-") {
+        return Ok(Table::read(path, need)?);
+    }
+    let mut bytes = Vec::new();
+    io::stdin().lock().take(LARGEST).read_to_end(&mut bytes).context("<stdin>: can't be read")?;
+    Ok(Table::parse(&bytes, "<stdin>", need)?)
+}
+
+/// The classes that a name means, or the one that a file is: a path that exists, ends in `.csv` or is `-`.
+pub(crate) fn classes(name: &str) -> anyhow::Result<Vec<Class>> {
+    let path = Path::new(name);
+    let is_csv = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
+    let is_file = name == "-" || is_csv || path.is_file();
+    if is_file {
+        let table = read(path, Need::Values)?;
+        return Ok(Class::from_table(table).into_iter().collect());
+    }
+    Ok(Catalogue::embedded()?.matching(name)?.into_iter().cloned().collect())
+}
+
+/// Several classes as one table.
+pub(crate) fn joined(name: &str, classes: &[Class]) -> Table {
+    let header = classes.first().map_or(&[][..], |class| class.table().header());
+    let rows: Vec<Row> = classes.iter().flat_map(Class::rows).cloned().collect();
+    Table::from_rows(name, header, rows)
+}

@@ -1,0 +1,196 @@
+//! `catseye measure`: a virtual retroreflectometer.
+
+use std::io::{self, Write as _};
+use std::path::PathBuf;
+
+use anyhow::{Context as _, bail};
+use catseye_photometry::standards::{Catalogue, Class};
+use catseye_photometry::verdict::{Verdict, verdicts};
+use catseye_photometry::{Need, Row, Table};
+use catseye_render::Probe;
+use serde_json::{Map, Value, json};
+
+use crate::args::ModelArg;
+use crate::failure::Usage;
+use crate::library::LibraryArgs;
+use crate::output::Output;
+use crate::photometer::{Channel, Photometer};
+use crate::{help, report, values};
+
+/// The geometries that are measured where none are given: those of the standards for sheeting.
+const OBSERVATIONS_DEG: [&str; 7] = ["0.1", "0.2", "0.33", "0.5", "1", "1.5", "2"];
+const ENTRANCES_DEG: [&str; 5] = ["-4", "5", "20", "30", "40"];
+
+/// Measure a material as a retroreflectometer would
+///
+/// Answers the rows of a table with the material's value in a column `model`, in the row's unit: R_A in cd/lx/m2 where neither
+/// `quantity` nor `unit` say something else. Observation and entrance angles are those of the CIE goniometer system, beta_2 is
+/// 0. Colours count as luminance in linear Rec. 709. What the surface emits and the mirror image of the lamp in a smooth coat
+/// are not measured; a lobe of roughness 0, which returns all light in one direction, is an error.
+#[derive(Debug, clap::Args)]
+#[command(after_help = help::measure())]
+pub(crate) struct Args {
+    /// MaterialX document with the material to measure
+    #[arg(value_name = "MATERIAL.mtlx")]
+    document: PathBuf,
+    /// CSV table of the geometries, `-` for standard input [default: those of the standards for sheeting]
+    #[arg(long, value_name = "TABLE.csv", conflicts_with = "standard")]
+    geometry: Option<PathBuf>,
+    /// Measure at the geometries of a standard or class (see `catseye standards list`), or of a table with values
+    #[arg(long, value_name = "NAME|TABLE.csv")]
+    standard: Option<String>,
+    /// Name of the surface material, where the document has several
+    #[arg(long, value_name = "NAME")]
+    material: Option<String>,
+    #[command(flatten)]
+    library: LibraryArgs,
+    /// Which lobe reflects
+    #[arg(long, value_enum, default_value_t)]
+    model: ModelArg,
+    /// What is made of the three colour channels
+    #[arg(long, value_enum, default_value_t)]
+    channel: Channel,
+    /// Area of the reflector in square metres, for rows of R_I
+    #[arg(long, value_name = "AREA")]
+    area_m2: Option<f64>,
+    /// Say which classes of standards the material meets, and where it fails the others, instead of the rows
+    #[arg(long, conflicts_with = "geometry")]
+    verdict: bool,
+    /// Judge by the classes of this colour
+    #[arg(long, value_name = "COLOUR", default_value = "white", conflicts_with = "standard")]
+    colour: String,
+    /// Write to this file instead of standard output; it appears whole or not at all
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Print a JSON array with one object per row or verdict
+    #[arg(long)]
+    json: bool,
+}
+
+impl Args {
+    pub(crate) fn run(&self) -> anyhow::Result<()> {
+        if self.area_m2.is_some_and(|area| !(area > 0.0 && area.is_finite())) {
+            bail!(Usage("--area-m2 must be above 0".to_owned()));
+        }
+        let output = self.output.as_deref().map(Output::new).transpose()?;
+        let material = self.library.material(&self.document, self.material.as_deref())?;
+        let probe = Probe::new(&material, self.model.0)?;
+        let photometer = Photometer { probe, channel: self.channel, area: self.area_m2 };
+        let text = if self.verdict { self.judge(&photometer)? } else { self.measure(&photometer)? };
+        match output {
+            None => Ok(io::stdout().lock().write_all(text.as_bytes())?),
+            Some(file) => file.write(text.as_bytes()),
+        }
+    }
+
+    /// The rows with the column `model`.
+    fn measure(&self, photometer: &Photometer) -> anyhow::Result<String> {
+        let table = self.table()?;
+        let mut model = Vec::new();
+        for row in table.rows() {
+            let value = photometer
+                .measure(row.quantity, &row.geometry())
+                .with_context(|| format!("{}:{}", table.name(), row.line))?;
+            model.push(row.unit.from_si(value));
+        }
+        if self.json {
+            let rows: Vec<Value> =
+                table.rows().iter().zip(&model).map(|(row, &model)| object(&table, row, model)).collect();
+            return report::json(&Value::from(rows));
+        }
+        // As in every table of the command: the digits that give the same value back.
+        Ok(table.to_csv(&[("model", model.iter().map(|value| format!("{value:?}")).collect())]))
+    }
+
+    fn table(&self) -> anyhow::Result<Table> {
+        if let Some(path) = &self.geometry {
+            return values::read(path, Need::Geometry);
+        }
+        if let Some(name) = &self.standard {
+            return Ok(values::joined(name, &values::classes(name)?));
+        }
+        let mut text = String::from("observation_deg,entrance_deg,quantity,unit\n");
+        for observation in OBSERVATIONS_DEG {
+            for entrance in ENTRANCES_DEG {
+                text += &format!("{observation},{entrance},R_A,cd/lx/m2\n");
+            }
+        }
+        Ok(Table::parse(text.as_bytes(), "built-in geometries", Need::Geometry)?)
+    }
+
+    /// A line for each class.
+    fn judge(&self, photometer: &Photometer) -> anyhow::Result<String> {
+        let classes = match &self.standard {
+            Some(name) => values::classes(name)?,
+            None => of_colour(&self.colour)?,
+        };
+        // A material that can't be measured fails no standard.
+        let first = classes.first().map(|class| class.rows()[0].geometry());
+        first.map(|geometry| photometer.brdf(&geometry)).transpose()?;
+        let all = verdicts(&classes, |quantity, geometry| photometer.measure(quantity, geometry).ok());
+        if all.is_empty() {
+            bail!(
+                "none of these has limits that can be judged: R_I needs --area-m2, and typical values are no limits"
+            );
+        }
+        if self.json {
+            return report::json(&all.iter().map(verdict_object).collect());
+        }
+        Ok(all.iter().map(|verdict| format!("{verdict}\n")).collect())
+    }
+}
+
+/// The embedded classes of a colour, by the last part of their name.
+fn of_colour(colour: &str) -> anyhow::Result<Vec<Class>> {
+    let catalogue = Catalogue::embedded()?;
+    let colour_of = |class: &Class| class.id().rsplit(':').next().unwrap_or_default().to_owned();
+    let wanted = colour.to_lowercase().replace(' ', "-");
+    let found: Vec<Class> =
+        catalogue.classes().iter().filter(|class| colour_of(class) == wanted).cloned().collect();
+    if found.is_empty() {
+        let mut known: Vec<String> = catalogue.classes().iter().map(colour_of).collect();
+        known.sort();
+        known.dedup();
+        bail!(Usage(format!("--colour {colour}: no class has it; known are {}", known.join(", "))));
+    }
+    Ok(found)
+}
+
+/// A row as JSON: its cells by their column, numbers where the column is one of numbers, and the model's value.
+fn object(table: &Table, row: &Row, model: f64) -> Value {
+    const NUMBERS: [&str; 4] = ["observation_deg", "entrance_deg", "rotation_deg", "value"];
+    let mut object = Map::new();
+    for (name, cell) in table.header().iter().zip(&row.cells) {
+        let number = cell.parse::<f64>().ok().filter(|_| NUMBERS.contains(&name.as_str()));
+        object.insert(name.clone(), number.map_or_else(|| json!(cell), |number| json!(number)));
+    }
+    object.insert("model".to_owned(), json!(model));
+    Value::Object(object)
+}
+
+fn verdict_object(verdict: &Verdict<'_>) -> Value {
+    let points: Vec<Value> = verdict
+        .checks()
+        .iter()
+        .map(|check| {
+            let unit = check.row.unit;
+            json!({
+                "observation_deg": check.row.observation_deg,
+                "entrance_deg": check.row.entrance_deg,
+                "quantity": check.row.quantity.symbol(),
+                "limit": check.row.limit.name(),
+                "asked": unit.from_si(check.asked),
+                "found": unit.from_si(check.found),
+                "unit": unit.symbol(),
+                "met": check.is_met(),
+            })
+        })
+        .collect();
+    json!({
+        "class": verdict.class().id(),
+        "met": verdict.is_met(),
+        "margin": verdict.tightest().margin(),
+        "text": verdict.to_string(),
+        "points": points,
+    })
+}

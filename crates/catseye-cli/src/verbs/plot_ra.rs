@@ -1,0 +1,163 @@
+//! `catseye plot ra`: what a photometer would see, and what a standard asks.
+
+use std::path::PathBuf;
+
+use anyhow::bail;
+use catseye::{Lobe as _, Params, Reciprocal};
+use catseye_photometry::standards::{Catalogue, Class};
+use catseye_photometry::{Geometry, Quantity, Row};
+use catseye_render::Probe;
+use clap::ArgGroup;
+
+use crate::args::ModelArg;
+use crate::failure::Usage;
+use crate::help;
+use crate::library::LibraryArgs;
+use crate::photometer::{Channel, Photometer};
+use crate::plot::axes::unbounded;
+use crate::plot::ra::{Point, RaFigure, Request};
+use crate::values;
+use crate::verbs::plot::finish;
+
+/// Curves of one diagram: more can't be told apart.
+const MOST_CURVES: usize = 8;
+/// Entrance angles where neither the command nor a table names any.
+const ENTRANCES_DEG: [f64; 3] = [-4.0, 30.0, 45.0];
+/// The least observation angle that the axis ends at, in degrees.
+const LEAST_END_DEG: f64 = 2.0;
+
+/// R_A over the observation angle, one curve for each entrance angle, with the values of a standard or a table
+///
+/// Of a material, or of one lobe with --roughness and --tint. Upright triangles are minima, inverted ones maxima, dots are
+/// typical values; each has the colour of its entrance angle.
+#[derive(Debug, clap::Args)]
+#[command(after_help = help::PLOT_RA)]
+#[command(group = ArgGroup::new("subject").required(true))]
+pub(crate) struct Args {
+    /// MaterialX document with the material to plot
+    #[arg(value_name = "MATERIAL.mtlx", group = "subject")]
+    document: Option<PathBuf>,
+    /// Roughness of a lobe to plot instead, above 0
+    #[arg(long, value_name = "R", group = "subject")]
+    roughness: Option<f64>,
+    /// Tint of that lobe, in [0, 1]
+    #[arg(long, value_name = "TINT", default_value_t = 1.0, conflicts_with = "document")]
+    tint: f64,
+    /// Values to show: a class of a standard (see `catseye standards list`) or a CSV table
+    #[arg(long, value_name = "NAME|TABLE.csv")]
+    standard: Option<String>,
+    /// Entrance angles in degrees, 1 to 8 of them [default: those of the values]
+    #[arg(long, value_name = "DEG,...", value_delimiter = ',', allow_hyphen_values = true)]
+    entrance: Option<Vec<f64>>,
+    /// Observation angle in degrees at the axis' end [default: where the values end]
+    #[arg(long, value_name = "DEG")]
+    observation: Option<f64>,
+    /// Name of the surface material, where the document has several
+    #[arg(long, value_name = "NAME", requires = "document")]
+    material: Option<String>,
+    #[command(flatten)]
+    library: LibraryArgs,
+    /// Which lobe reflects in the material
+    #[arg(long, value_enum, default_value_t)]
+    model: ModelArg,
+    /// What is made of the three colour channels
+    #[arg(long, value_enum, default_value_t)]
+    channel: Channel,
+    /// File to write, .svg or .png
+    #[arg(short, long, value_name = "FILE", default_value = "ra.svg")]
+    output: PathBuf,
+    /// Print what was written as JSON
+    #[arg(long)]
+    json: bool,
+}
+
+impl Args {
+    pub(crate) fn run(&self) -> anyhow::Result<()> {
+        let class = self.standard.as_deref().map(one_class).transpose()?;
+        let points = class.as_ref().map(points).transpose()?.unwrap_or_default();
+        let entrance_deg = self.entrances(&points)?;
+        let last = points.iter().map(|point| point.observation_deg).fold(0.0, f64::max);
+        let end_deg = self.observation.unwrap_or_else(|| LEAST_END_DEG.max(1.1 * last));
+        let least = entrance_deg.iter().fold(f64::INFINITY, |least, &angle| least.min(angle));
+        if !(end_deg > 0.0 && end_deg < 90.0 + least) {
+            bail!(Usage(format!("--observation {end_deg}: must be above 0 and less than {}", 90.0 + least)));
+        }
+        let (title, r_a) = self.subject()?;
+        let subtitle =
+            class.map_or_else(String::new, |class| format!("with the values of {}", class.title()));
+        let request = Request { title, subtitle, entrance_deg, end_deg, points };
+        finish(&RaFigure::new(request, r_a)?, &self.output, self.json)
+    }
+
+    /// What is plotted: its name, and its `R_A`.
+    fn subject(&self) -> anyhow::Result<(String, Box<dyn Fn(&Geometry) -> anyhow::Result<f64>>)> {
+        let r_a = |f, geometry: &Geometry| {
+            Quantity::RetroReflectionCoefficient.from_brdf(f, geometry).unwrap_or_default()
+        };
+        if let Some(path) = &self.document {
+            let material = self.library.material(path, self.material.as_deref())?;
+            let probe = Probe::new(&material, self.model.0)?;
+            let photometer = Photometer { probe, channel: self.channel, area: None };
+            let title = format!("Coefficient of retro-reflection of {}", material.name);
+            return Ok((title, Box::new(move |geometry| Ok(r_a(photometer.brdf(geometry)?, geometry)))));
+        }
+        let (roughness, tint) = (self.roughness.unwrap_or_default(), self.tint);
+        let lobe = Reciprocal::<f64>::new(&Params::isotropic(roughness).with_tint([tint; 3]))?;
+        if lobe.is_dirac() {
+            bail!(
+                "roughness {roughness} is a perfect retro-reflector: its R_A is infinite in one direction and 0 in all others"
+            );
+        }
+        let title = format!(
+            "Coefficient of retro-reflection of a lobe: roughness {}, tint {tint}",
+            unbounded(roughness)
+        );
+        Ok((title, Box::new(move |geometry| Ok(r_a(lobe.eval(geometry.wo, geometry.wi)[0], geometry)))))
+    }
+
+    /// The entrance angles: as asked, else those of the points, else the usual ones. Ascending.
+    fn entrances(&self, points: &[Point]) -> anyhow::Result<Vec<f64>> {
+        let mut angles = match &self.entrance {
+            Some(angles) => angles.clone(),
+            None if points.is_empty() => ENTRANCES_DEG.to_vec(),
+            None => points.iter().map(|point| point.entrance_deg).collect(),
+        };
+        angles.sort_by(f64::total_cmp);
+        angles.dedup();
+        let legal = |angle: &f64| angle.abs() < 90.0;
+        if !angles.iter().all(legal) || angles.len() > MOST_CURVES {
+            bail!(Usage(format!("--entrance takes 1 to {MOST_CURVES} angles, each in (-90, 90)")));
+        }
+        Ok(angles)
+    }
+}
+
+/// One class by its name, or a table.
+fn one_class(name: &str) -> anyhow::Result<Class> {
+    let mut classes = values::classes(name)?;
+    if classes.len() == 1 {
+        return Ok(classes.remove(0));
+    }
+    // The error lists the candidates.
+    Ok(Catalogue::embedded()?.find(name)?.clone())
+}
+
+/// The values as `R_A`.
+fn points(class: &Class) -> anyhow::Result<Vec<Point>> {
+    let points: Vec<Point> = class.rows().iter().filter_map(point).collect();
+    if points.is_empty() {
+        bail!("{}: has no values that are R_A or follow from it without an area or an integral", class.id());
+    }
+    Ok(points)
+}
+
+fn point(row: &Row) -> Option<Point> {
+    let geometry = row.geometry();
+    let f = row.quantity.to_brdf(row.value?, &geometry)?;
+    Some(Point {
+        observation_deg: row.observation_deg,
+        entrance_deg: row.entrance_deg,
+        r_a: Quantity::RetroReflectionCoefficient.from_brdf(f, &geometry)?,
+        limit: row.limit,
+    })
+}
