@@ -3,7 +3,9 @@
 use std::f64::consts::FRAC_PI_2;
 
 use anyhow::{anyhow, bail};
-use catseye_photometry::{Geometry, Quantity, diffuse_luminance_coefficient, fractional_retro_reflectance};
+use catseye_photometry::{
+    Geometry, Quantity, diffuse_luminance_coefficient, fractional_retro_reflectance, luminance,
+};
 use catseye_render::Probe;
 use clap::ValueEnum;
 
