@@ -60,7 +60,7 @@ pub(crate) fn save(figure: &impl Figure, path: &Path) -> anyhow::Result<()> {
 }
 
 /// The figure as an SVG document.
-fn svg(figure: &impl Figure) -> anyhow::Result<String> {
+pub(crate) fn svg(figure: &impl Figure) -> anyhow::Result<String> {
     load_font()?;
     let (width, height) = figure.size();
     let (wide, high) = (width * SUBPIXELS, height * SUBPIXELS);

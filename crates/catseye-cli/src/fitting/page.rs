@@ -2,8 +2,11 @@
 
 use std::fmt::Write as _;
 
-use catseye_photometry::Row;
 use catseye_photometry::fit::{Fit, Trial};
+use catseye_photometry::{Quantity, Row};
+
+use crate::figure;
+use crate::plot::ra::{Point, RaFigure, Request};
 
 use super::Outcome;
 use super::outcome::{describe, percent, short};
@@ -30,6 +33,7 @@ pub(crate) fn page(outcome: &Outcome<'_>) -> anyhow::Result<String> {
     for line in said.into_iter().flatten().chain(remarks) {
         let _ = writeln!(html, "<p>{}</p>", escaped(&line));
     }
+    html.push_str(&curves(outcome, fit, "retro_reflective_bsdf")?);
     html.push_str("<h2>Numbers</h2>\n");
     numbers(&mut html, fit);
     if !outcome.subject.rows.is_empty() {
@@ -40,6 +44,7 @@ pub(crate) fn page(outcome: &Outcome<'_>) -> anyhow::Result<String> {
     trials(&mut html, &fit.trials, "");
     if let Some(beside) = outcome.beside {
         html.push_str("<h2>The same values with the back-vector GGX lobe</h2>\n");
+        html.push_str(&curves(outcome, beside, "back-vector GGX")?);
         trials(&mut html, &beside.trials, "back-vector: ");
         numbers(&mut html, beside);
     }
@@ -49,6 +54,36 @@ pub(crate) fn page(outcome: &Outcome<'_>) -> anyhow::Result<String> {
     }
     html.push_str("</ul>\n</html>\n");
     Ok(html)
+}
+
+/// `R_A` over the observation angle with the table's values, as SVG; empty where the table has none.
+fn curves(outcome: &Outcome<'_>, fit: &Fit, model: &str) -> anyhow::Result<String> {
+    let is_r_a = |row: &&Row| row.quantity == Quantity::RetroReflectionCoefficient;
+    let point = |row: &Row| {
+        let Row { observation_deg, entrance_deg, limit, .. } = *row;
+        row.value.map(|r_a| Point { observation_deg, entrance_deg, r_a, limit })
+    };
+    let points: Vec<Point> = outcome.subject.rows.iter().filter(is_r_a).filter_map(point).collect();
+    if points.is_empty() {
+        return Ok(String::new());
+    }
+    let mut entrance_deg: Vec<f64> = points.iter().map(|point| point.entrance_deg).collect();
+    entrance_deg.sort_by(f64::total_cmp);
+    entrance_deg.dedup();
+    let end_deg = 1.3 * points.iter().map(|point| point.observation_deg).fold(0.0, f64::max);
+    let prepared = fit.sheeting.prepare()?;
+    let request = Request {
+        title: format!("R_A of {}", outcome.subject.title),
+        subtitle: format!("{model}: {}", describe(&fit.form)),
+        entrance_deg,
+        end_deg,
+        points,
+    };
+    let figure = RaFigure::new(request, |geometry| {
+        let f = prepared.eval(geometry.wo, geometry.wi);
+        Ok(Quantity::RetroReflectionCoefficient.from_brdf(f, geometry).unwrap_or_default())
+    })?;
+    figure::svg(&figure)
 }
 
 fn numbers(html: &mut String, fit: &Fit) {

@@ -9,6 +9,8 @@ use catseye_photometry::openmaterial::{Assumption, OpenMaterial};
 use catseye_photometry::standards::Catalogue;
 use catseye_photometry::{ApertureRule, Colour, Limit, Need, Quantity, Row, Table};
 
+use crate::values;
+
 /// Samples of a measured BRDF that a fit looks at: more of them make it slower and no better.
 const BRDF_SAMPLES: usize = 400;
 
@@ -35,10 +37,10 @@ impl Subject {
         let path = Path::new(name);
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         match ending.as_str() {
-            "csv" => Self::of_table(&Table::read(path, Need::Values)?, only),
+            "csv" => Self::of_table(&values::read(path, Need::Values)?, only),
             "xomp" => Self::of_open_material(path),
             "dat" | "alta" | "binary" => Self::of_brdf(path, cosine),
-            _ if path.is_file() => Self::of_table(&Table::read(path, Need::Values)?, only),
+            _ if name == "-" || path.is_file() => Self::of_table(&values::read(path, Need::Values)?, only),
             _ => Self::of_table(Catalogue::embedded()?.find(name)?.table(), only),
         }
     }

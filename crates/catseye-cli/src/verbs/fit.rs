@@ -16,7 +16,7 @@ use crate::output::Output;
 use crate::{help, report};
 
 /// Percent by which a model of a measured BRDF may be off on average: what three lobes make of real tapes.
-const BRDF_TOLERANCE: f64 = 30.0;
+const BRDF_TOLERANCE: f64 = 40.0;
 /// Degree of the aperture's rule for measured BRDFs.
 const BRDF_RULE: usize = 7;
 
@@ -48,7 +48,7 @@ pub(crate) struct Args {
     /// How the strength depends on the entrance angle
     #[arg(long, value_enum, default_value_t)]
     entrance: Entrance,
-    /// The worst error that is accepted, in percent; of a measured BRDF the root mean square [default: 5, of a BRDF 30]
+    /// The worst error that is accepted, in percent; of a measured BRDF the root mean square [default: 5, of a BRDF 40]
     #[arg(long, value_name = "PERCENT")]
     tolerance: Option<f64>,
     /// Meet minima as lower limits instead of as values
@@ -123,6 +123,7 @@ impl Args {
         let observations = self.observations(&mut subject)?;
         let options = FitOptions {
             diffuse: self.luminance_factor.is_some() || subject.has_luminance_factor() || subject.is_brdf(),
+            isotropic: subject.is_brdf(),
             channel_peak: colour.peak(),
             roughness: options.roughness.or(subject.roughness),
             tolerance: 0.01 * self.tolerance.unwrap_or(if subject.is_brdf() { BRDF_TOLERANCE } else { 5.0 }),

@@ -41,6 +41,8 @@ pub struct FitOptions {
     pub entrance: Option<EntranceKind>,
     /// The roughness of a single lobe where the data can't tell it.
     pub roughness: Option<f64>,
+    /// Whether the data hold for every orientation of the sample, so that lobes have one roughness.
+    pub isotropic: bool,
     /// Whether the model has a diffuse base.
     pub diffuse: bool,
     /// Refractive index of a clear coat over the lobes, if there is one.
@@ -60,6 +62,7 @@ impl Default for FitOptions {
             lobes: None,
             entrance: None,
             roughness: None,
+            isotropic: false,
             diffuse: false,
             coat_ior: None,
             entrance_form: EntranceForm::View,
@@ -135,7 +138,7 @@ pub fn fit(observations: &[Observation], options: &FitOptions) -> Result<Fit, Fi
 }
 
 fn is_acceptable(solution: &Solution, rows: usize, tolerance: f64) -> bool {
-    let error = if rows > TABLE_ROWS { solution.rms.exp_m1() } else { solution.worst };
+    let error = if rows > TABLE_ROWS { solution.rms } else { solution.worst };
     error <= tolerance
 }
 

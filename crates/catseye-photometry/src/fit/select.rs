@@ -102,7 +102,7 @@ impl Span {
                         lobes,
                         entrance,
                         shared,
-                        anisotropic: self.turned,
+                        anisotropic: self.turned && !options.isotropic,
                         diffuse: options.diffuse,
                         roughness: options.roughness,
                         coat_ior: options.coat_ior,

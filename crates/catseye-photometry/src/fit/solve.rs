@@ -9,6 +9,8 @@ use crate::sheeting::Sheeting;
 
 /// Starting points: what more of them found on the standards' tables was no better.
 const STARTS: usize = 12;
+/// The same for measurements, whose many rows leave little choice.
+const STARTS_OF_MANY: usize = 3;
 /// Rounds of weighting the worst rows up, and how many of them without progress end them.
 const ROUNDS: usize = 14;
 const IDLE_ROUNDS: usize = 4;
@@ -58,7 +60,8 @@ pub(crate) fn solve(
 ) -> Option<Solution> {
     let unknowns = form.unknowns();
     let mut best: Option<Solution> = None;
-    for start in 0..STARTS {
+    let starts = if observations.len() > TABLE_ROWS { STARTS_OF_MANY } else { STARTS };
+    for start in 0..starts {
         let x = starting_point(form, &unknowns, observations, start);
         let mut problem = Problem::new(form, observations, channel_peak, &x);
         let solver = LevenbergMarquardt::new()
