@@ -83,14 +83,8 @@ impl Subject {
         if only.is_none() && !rows.iter().all(is_class) && !is_joined(&rows) {
             bail!("{}: holds several materials; choose one with --only: {}", table.name(), titles(&rows));
         }
-        Ok(Self {
-            name: table.name().to_owned(),
-            title: title(first),
-            rows,
-            brdf: None,
-            roughness: None,
-            remarks: Vec::new(),
-        })
+        let (name, title) = (table.name().to_owned(), title(first));
+        Ok(Self { name, title, rows, brdf: None, roughness: None, remarks: Vec::new() })
     }
 
     /// The colour that the rows name or the samples have near the retro direction, or white.
@@ -122,6 +116,18 @@ impl Subject {
             }
         }
         sources
+    }
+
+    /// Leaves out the minima where there are typical values, which say what the material is.
+    pub(crate) fn drop_minima_beside_values(&mut self) {
+        let before = self.rows.len();
+        if self.rows.iter().any(|row| row.limit == Limit::Typical) {
+            self.rows.retain(|row| row.limit != Limit::Minimum);
+        }
+        if self.rows.len() < before {
+            let remark = "minima beside typical values are left out; --at-least takes them for limits";
+            self.remarks.push(remark.to_owned());
+        }
     }
 
     /// The values as a fit sees them, through the apertures of the instrument.

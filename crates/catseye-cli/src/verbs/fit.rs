@@ -119,6 +119,9 @@ impl Args {
             Some(false) => Cosine::Excluded,
         };
         let mut subject = Subject::find(&self.subject, self.only.as_deref(), cosine)?;
+        if !self.at_least {
+            subject.drop_minima_beside_values();
+        }
         let colour = self.colour.unwrap_or_else(|| subject.colour());
         let observations = self.observations(&mut subject)?;
         let options = FitOptions {

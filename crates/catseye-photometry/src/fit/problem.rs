@@ -17,7 +17,7 @@ const PRIOR_WEIGHT: f64 = 1e-3;
 const ENERGY_WEIGHT: f64 = 100.0;
 /// Weight of a bound that is broken, and of one that is met with something to spare.
 const BROKEN_WEIGHT: f64 = 10.0;
-const SPARE_WEIGHT: f64 = 0.2;
+pub(crate) const SPARE_WEIGHT: f64 = 0.2;
 /// The model's values are kept above this share of the observed one, so that logarithms stay finite.
 const LEAST_RATIO: f64 = 1e-12;
 

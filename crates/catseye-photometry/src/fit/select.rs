@@ -3,7 +3,7 @@
 use catseye::Vec3;
 
 use super::form::{EntranceKind, Form};
-use super::observation::Observation;
+use super::observation::{Aim, Observation};
 use super::solve::{Solution, TABLE_ROWS, solve};
 use super::{FitError, FitOptions, Trial, is_acceptable};
 
@@ -124,15 +124,17 @@ fn distinct(values: impl Iterator<Item = f64>) -> Vec<f64> {
     values
 }
 
-/// The simplest form that meets the tolerance, or the best one; for measurements with noise, the one of the least
-/// Bayesian information criterion.
+/// The simplest form that meets the tolerance, or the best one; for measurements with noise and for limits, the one of the
+/// least Bayesian information criterion.
 pub(crate) fn choose(
     observations: &[Observation],
     options: &FitOptions,
     span: &Span,
 ) -> Result<(Solution, Vec<Trial>), FitError> {
     let rows = observations.len();
-    let is_table = rows <= TABLE_ROWS;
+    // Any form meets a minimum with strength enough; the best one has the least to spare.
+    let has_limits = observations.iter().any(|row| row.aim == Aim::AtLeast);
+    let is_table = rows <= TABLE_ROWS && !has_limits;
     let mut trials = Vec::new();
     let mut best: Option<Solution> = None;
     for form in span.forms(options) {
@@ -140,7 +142,7 @@ pub(crate) fn choose(
         let (unknowns, worst, rms) = (found.unknowns(), found.worst, found.rms);
         trials.push(Trial { form, unknowns, worst, rms });
         let done = is_table && is_acceptable(&found, rows, options.tolerance);
-        let score = |solution: &Solution| if is_table { solution.worst } else { information(solution, rows) };
+        let score = |found: &Solution| if is_table { found.worst } else { information(found, rows) };
         if best.as_ref().is_none_or(|best| score(&found) < score(best)) {
             best = Some(found);
         }
@@ -154,5 +156,5 @@ pub(crate) fn choose(
 /// The Bayesian information criterion for errors of unknown size.
 fn information(solution: &Solution, rows: usize) -> f64 {
     let rows = rows as f64;
-    rows * 2.0 * solution.rms.max(f64::MIN_POSITIVE).ln() + solution.unknowns() as f64 * rows.ln()
+    rows * 2.0 * solution.spread().max(f64::MIN_POSITIVE).ln() + solution.unknowns() as f64 * rows.ln()
 }

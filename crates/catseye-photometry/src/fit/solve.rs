@@ -4,7 +4,7 @@ use levenberg_marquardt::LevenbergMarquardt;
 
 use super::form::{Form, Meaning, Unknown};
 use super::observation::{Aim, Observation};
-use super::problem::{Problem, excess, log_ratios};
+use super::problem::{Problem, SPARE_WEIGHT, excess, log_ratios};
 use crate::sheeting::Sheeting;
 
 /// Starting points: what more of them found on the standards' tables was no better.
@@ -36,6 +36,8 @@ pub(crate) struct Solution {
     pub(crate) x: Vec<f64>,
     pub(crate) sheeting: Sheeting,
     pub(crate) log_ratios: Vec<f64>,
+    /// The rows' errors as logarithms, what a limit has to spare counting a little.
+    errors: Vec<f64>,
     /// The greatest error of a row, as a share of its value.
     pub(crate) worst: f64,
     /// Root mean square of the rows' errors, as logarithms.
@@ -59,6 +61,8 @@ pub(crate) fn solve(
     tolerance: f64,
 ) -> Option<Solution> {
     let unknowns = form.unknowns();
+    // Limits are met by strength, not by weights, which would forget the rows that are met.
+    let has_limits = observations.iter().any(|row| row.aim == Aim::AtLeast);
     let mut best: Option<Solution> = None;
     let starts = if observations.len() > TABLE_ROWS { STARTS_OF_MANY } else { STARTS };
     for start in 0..starts {
@@ -73,7 +77,7 @@ pub(crate) fn solve(
             (problem, _) = solver.minimize(problem);
             let Some(solution) = solution(form, &problem, observations, channel_peak) else { break };
             let worst = solution.worst;
-            let done = worst <= tolerance || observations.len() > TABLE_ROWS;
+            let done = worst <= tolerance || observations.len() > TABLE_ROWS || has_limits;
             reweight(&mut problem.weights, observations, &solution);
             if best.as_ref().is_none_or(|best| solution.is_better_than(best, tolerance)) {
                 best = Some(solution);
@@ -94,22 +98,33 @@ fn solution(
     channel_peak: f64,
 ) -> Option<Solution> {
     let mut x = problem.x();
-    let sheeting = form.sheeting(&form.unknowns(), &x);
-    // The energy is a penalty in the problem, and a law here.
-    let albedo = 1.0 + excess(&sheeting, channel_peak);
-    if albedo > 1.0 + ENERGY_SLACK {
+    // Limits and the energy are penalties in the problem, and laws here; of the two the energy's is the higher.
+    let logs = log_ratios(&form.sheeting(&form.unknowns(), &x), observations)?;
+    let at_least = observations.iter().zip(&logs).filter(|(row, _)| row.aim == Aim::AtLeast);
+    let missing = at_least.map(|(_, log)| -log).fold(0.0, f64::max);
+    let mut strengthen = |by: f64| {
         for (x, unknown) in x.iter_mut().zip(form.unknowns()) {
             if matches!(unknown.meaning, Meaning::Strength(_) | Meaning::Diffuse) {
-                *x -= albedo.ln();
+                *x += by;
             }
         }
+        form.sheeting(&form.unknowns(), &x)
+    };
+    let albedo = 1.0 + excess(&strengthen(missing), channel_peak);
+    if albedo > 1.0 + ENERGY_SLACK {
+        strengthen(-albedo.ln());
     }
     let sheeting = form.sheeting(&form.unknowns(), &x);
     let log_ratios = log_ratios(&sheeting, observations)?;
     let misses = observations.iter().zip(&log_ratios).map(|(row, &log)| miss(row.aim, log));
+    let errors = observations.iter().zip(&log_ratios).map(|(row, &log)| match row.aim {
+        Aim::Equal => log,
+        aim => miss(aim, log).max(SPARE_WEIGHT * log.abs()),
+    });
+    let errors = errors.collect();
     let worst = misses.clone().fold(0.0, f64::max).exp_m1();
     let rms = (misses.map(|miss| miss * miss).sum::<f64>() / observations.len() as f64).sqrt();
-    worst.is_finite().then_some(Solution { form, x, sheeting, log_ratios, worst, rms })
+    worst.is_finite().then_some(Solution { form, x, sheeting, log_ratios, errors, worst, rms })
 }
 
 impl Solution {
@@ -125,8 +140,14 @@ impl Solution {
         }
     }
 
+    /// Root mean square of the rows' errors, what a limit has to spare counting a little.
+    pub(crate) fn spread(&self) -> f64 {
+        let squares: f64 = self.errors.iter().map(|error| error * error).sum();
+        (squares / self.errors.len() as f64).sqrt()
+    }
+
     fn improbability(&self, tolerance: f64) -> f64 {
-        let rows = self.log_ratios.len() as f64 * (self.rms / tolerance).powi(2);
+        let rows: f64 = self.errors.iter().map(|error| (error / tolerance).powi(2)).sum();
         let numbers = self.form.unknowns().into_iter().zip(&self.x);
         rows + numbers.map(|(unknown, x)| unknown.surprise(*x).powi(2)).sum::<f64>()
     }
