@@ -143,7 +143,7 @@ impl Document {
     fn new(comment: &str) -> Self {
         let mut document = Self { writer: Writer::new_with_indent(Cursor::new(Vec::new()), b' ', 2) };
         document.event(Event::Decl(BytesDecl::new("1.0", None, None)));
-        // A comment ends at the first two hyphens.
+        // Two hyphens would end the comment.
         let comment = format!(" {} ", comment.replace("--", "- -"));
         document.event(Event::Comment(BytesText::from_escaped(comment)));
         document.open("materialx", &[("version", "1.39"), ("colorspace", "lin_rec709")]);

@@ -221,13 +221,27 @@ impl Args {
         let name = self.name.clone().or_else(|| stem.map(Into::into)).unwrap_or_default();
         let subject = outcome.subject;
         let title = if subject.title.is_empty() { &subject.name } else { &subject.title };
-        let doc = format!("Fitted to {title}. {}.", outcome.verdict());
+        let command = command_line(std::env::args().skip(1));
+        let doc = format!("Fitted to {title} by catseye {command}: {}.", outcome.verdict());
         let sources = subject.sources().join("; ");
-        let comment = if sources.is_empty() {
-            format!("Written by catseye fit {}", self.subject)
-        } else {
-            format!("Written by catseye fit {}. Source of the values: {sources}", self.subject)
-        };
+        let source = if sources.is_empty() { String::new() } else { format!(" Source of the values: {sources}") };
+        let comment = format!("Written by catseye fit.{source}");
         to_mtlx(&outcome.fit.sheeting, &MaterialText { name: &name, doc: &doc, comment: &comment, colour })
     }
+}
+
+/// The command as it was given, without what it was to write.
+fn command_line(words: impl Iterator<Item = String>) -> String {
+    const FILES: [&str; 3] = ["-o", "--output", "--report"];
+    let mut kept = Vec::new();
+    let mut words = words;
+    while let Some(word) = words.next() {
+        if FILES.contains(&word.as_str()) {
+            words.next();
+        } else if word != "--json" && !FILES.iter().any(|file| word.starts_with(&format!("{file}="))) {
+            let plain = word.chars().all(|c| c.is_ascii_alphanumeric() || "-_.:,/=+".contains(c));
+            kept.push(if plain { word } else { format!("'{word}'") });
+        }
+    }
+    kept.join(" ")
 }

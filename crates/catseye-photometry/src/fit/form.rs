@@ -11,6 +11,10 @@ const ROUGHNESS: [f64; 2] = [5e-4, 3.0];
 const WIDEST_ALPHA: f64 = 0.99;
 /// The weakest lobe, or base, that is looked for.
 const LEAST_STRENGTH: f64 = 1e-7;
+/// What sheeting has, and by which factor it varies: white sheeting and tapes of the standards have strengths of 0.02 to
+/// 0.14 and roughnesses of 0.003 to 0.02.
+const STRENGTH_PRIOR: [f64; 2] = [0.05, 5.0];
+const ROUGHNESS_PRIOR: [f64; 2] = [0.008, 2.5];
 /// Exponents of the cosine; a negative one needs a knee, or the lobe would gain light towards the horizon.
 const POWER: [f64; 2] = [0.0, 40.0];
 const POWER_BESIDE_KNEE: f64 = -3.0;
@@ -128,12 +132,12 @@ impl Form {
     pub(crate) fn unknowns(&self) -> Vec<Unknown> {
         let mut unknowns = Vec::new();
         for lobe in 0..self.lobes {
-            unknowns.push(log(Meaning::Strength(lobe), [LEAST_STRENGTH, 1.0], [0.05, 20.0]));
+            unknowns.push(log(Meaning::Strength(lobe), [LEAST_STRENGTH, 1.0], STRENGTH_PRIOR));
             if self.roughness.is_none() {
                 let widest = if self.model == Model::BackVector { WIDEST_ALPHA } else { ROUGHNESS[1] };
                 let bounds = [ROUGHNESS[0], widest];
                 let axes: &[_] = if self.anisotropic { &[Some(0), Some(1)] } else { &[None] };
-                let roughness = |&axis| log(Meaning::Roughness(lobe, axis), bounds, [0.008, 5.0]);
+                let roughness = |&axis| log(Meaning::Roughness(lobe, axis), bounds, ROUGHNESS_PRIOR);
                 unknowns.extend(axes.iter().map(roughness));
             }
         }

@@ -4,7 +4,7 @@ use catseye::Vec3;
 
 use super::form::{EntranceKind, Form};
 use super::observation::{Aim, Observation};
-use super::solve::{Solution, TABLE_ROWS, solve};
+use super::solve::{Solution, TABLE_ROWS, polish, solve};
 use super::{FitError, FitOptions, Trial, is_acceptable};
 
 /// Most lobes of a fit.
@@ -132,29 +132,49 @@ pub(crate) fn choose(
     span: &Span,
 ) -> Result<(Solution, Vec<Trial>), FitError> {
     let rows = observations.len();
-    // Any form meets a minimum with strength enough; the best one has the least to spare.
-    let has_limits = observations.iter().any(|row| row.aim == Aim::AtLeast);
-    let is_table = rows <= TABLE_ROWS && !has_limits;
+    let judged = match observations.iter().any(|row| row.aim == Aim::AtLeast) {
+        true => Judged::ByLimits(options.tolerance),
+        false if rows <= TABLE_ROWS => Judged::ByWorst,
+        false => Judged::ByNoise,
+    };
     let mut trials = Vec::new();
     let mut best: Option<Solution> = None;
     for form in span.forms(options) {
         let Some(found) = solve(form, observations, options.channel_peak, options.tolerance) else { continue };
         let (unknowns, worst, rms) = (found.unknowns(), found.worst, found.rms);
         trials.push(Trial { form, unknowns, worst, rms });
-        let done = is_table && is_acceptable(&found, rows, options.tolerance);
-        let score = |found: &Solution| if is_table { found.worst } else { information(found, rows) };
-        if best.as_ref().is_none_or(|best| score(&found) < score(best)) {
+        let done = judged == Judged::ByWorst && is_acceptable(&found, rows, options.tolerance);
+        if best.as_ref().is_none_or(|best| judged.score(&found) < judged.score(best)) {
             best = Some(found);
         }
         if done {
             break;
         }
     }
-    best.map(|best| (best, trials)).ok_or(FitError::NoSolution)
+    let best = best.ok_or(FitError::NoSolution)?;
+    Ok((polish(best, observations, options.channel_peak, options.tolerance), trials))
 }
 
-/// The Bayesian information criterion for errors of unknown size.
-fn information(solution: &Solution, rows: usize) -> f64 {
-    let rows = rows as f64;
-    rows * 2.0 * solution.spread().max(f64::MIN_POSITIVE).ln() + solution.unknowns() as f64 * rows.ln()
+/// What makes a form better than another one. The last two are Bayesian information criteria.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Judged {
+    /// The worst row of a table; the first form that meets the tolerance will do.
+    ByWorst,
+    /// Errors of unknown size.
+    ByNoise,
+    /// Limits with the least to spare, in units of this tolerance: with strength enough every form meets a minimum.
+    ByLimits(f64),
+}
+
+impl Judged {
+    /// Less is better.
+    fn score(self, solution: &Solution) -> f64 {
+        let rows = solution.log_ratios.len() as f64;
+        let price = solution.unknowns() as f64 * rows.ln();
+        match self {
+            Self::ByWorst => solution.worst,
+            Self::ByNoise => rows * 2.0 * solution.rms.max(f64::MIN_POSITIVE).ln() + price,
+            Self::ByLimits(tolerance) => solution.chi_square(tolerance) + price,
+        }
+    }
 }

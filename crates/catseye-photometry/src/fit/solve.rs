@@ -8,7 +8,7 @@ use super::problem::{Problem, SPARE_WEIGHT, excess, log_ratios};
 use crate::sheeting::Sheeting;
 
 /// Starting points: what more of them found on the standards' tables was no better.
-const STARTS: usize = 12;
+const STARTS: usize = 24;
 /// The same for measurements, whose many rows leave little choice.
 const STARTS_OF_MANY: usize = 3;
 /// Rounds of weighting the worst rows up, and how many of them without progress end them.
@@ -20,6 +20,8 @@ const PROGRESS: f64 = 0.98;
 const ROUND_ACCURACY: f64 = 1e-6;
 /// Evaluations within one round, in multiples of the free numbers plus one.
 const PATIENCE: usize = 12;
+/// The same for the last round of all.
+const POLISH_PATIENCE: usize = 300;
 /// How fast a row's weight follows its error: 1 is Lawson's algorithm, which overshoots where rows decide alone.
 const WEIGHT_POWER: f64 = 0.7;
 /// Least weight of a row beside the worst one, in one round.
@@ -91,6 +93,24 @@ pub(crate) fn solve(
     best
 }
 
+/// Follows the valley of a table that is met in many ways to where the numbers are least surprising.
+pub(crate) fn polish(
+    found: Solution,
+    observations: &[Observation],
+    channel_peak: f64,
+    tolerance: f64,
+) -> Solution {
+    if observations.len() > TABLE_ROWS || found.worst > tolerance {
+        return found;
+    }
+    let problem = Problem::new(found.form, observations, channel_peak, &found.x);
+    let (problem, _) = LevenbergMarquardt::new().with_patience(POLISH_PATIENCE).minimize(problem);
+    match solution(found.form, &problem, observations, channel_peak) {
+        Some(polished) if polished.is_better_than(&found, tolerance) => polished,
+        _ => found,
+    }
+}
+
 fn solution(
     form: Form,
     problem: &Problem<'_>,
@@ -140,14 +160,13 @@ impl Solution {
         }
     }
 
-    /// Root mean square of the rows' errors, what a limit has to spare counting a little.
-    pub(crate) fn spread(&self) -> f64 {
-        let squares: f64 = self.errors.iter().map(|error| error * error).sum();
-        (squares / self.errors.len() as f64).sqrt()
+    /// Sum of the squared errors in units of the tolerance, what a limit has to spare counting a little.
+    pub(crate) fn chi_square(&self, tolerance: f64) -> f64 {
+        self.errors.iter().map(|error| (error / tolerance).powi(2)).sum()
     }
 
     fn improbability(&self, tolerance: f64) -> f64 {
-        let rows: f64 = self.errors.iter().map(|error| (error / tolerance).powi(2)).sum();
+        let rows = self.chi_square(tolerance);
         let numbers = self.form.unknowns().into_iter().zip(&self.x);
         rows + numbers.map(|(unknown, x)| unknown.surprise(*x).powi(2)).sum::<f64>()
     }
