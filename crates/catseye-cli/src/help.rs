@@ -62,7 +62,8 @@ Example:
 const MEASURE: &str = "\
 Example:
   $ catseye measure materials/sheeting.mtlx --standard fmvss108:dot-c2:white
-  $ catseye measure materials/sheeting.mtlx --verdict";
+  $ catseye measure materials/sheeting.mtlx --verdict
+  $ catseye measure materials/sheeting.mtlx --standard fmvss108:dot-c2:white --instrument";
 
 const VALUES: &str = "\
 Table format:
