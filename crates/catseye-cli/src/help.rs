@@ -82,6 +82,11 @@ Table format:
   - An empty cell is a missing one. A bad row is an error that names line and
     column; nothing is printed then.";
 
+/// Example of `catseye openmaterial`.
+pub(crate) const OPENMATERIAL: &str = "\
+Example:
+  $ catseye openmaterial materials/sheeting.mtlx --tint 905=0.3 -o sheeting.xomp";
+
 /// The format of tables of values, and an example of `catseye measure`.
 pub(crate) fn measure() -> String {
     format!("{VALUES}\n\n{MEASURE}")
