@@ -18,10 +18,10 @@ use crate::output::Output;
 use crate::photometer::{Channel, Photometer};
 use crate::{help, report};
 
-/// Write a material as ASAM OpenMATERIAL 3D: its coefficient of retro-reflection, and a table of its BRDF
+/// Write a material as ASAM `OpenMATERIAL` 3D: its coefficient of retro-reflection, and a table of its BRDF
 ///
-/// OUT.xomp gets the one coefficient that the format has room for, in cd/lx/m2, and names in its `sources` the angles that it is
-/// for, which the format has no room for. OUT_brdf.xompt beside it gets the BRDF at 555 nm and at the wavelengths of --tint, over
+/// `OUT.xomp` gets the one coefficient that the format has room for, in cd/lx/m2, and names in its `sources` the angles that it is
+/// for, which the format has no room for. `OUT_brdf.xompt` beside it gets the BRDF at 555 nm and at the wavelengths of --tint, over
 /// directions that are dense around the retro direction.
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::OPENMATERIAL)]

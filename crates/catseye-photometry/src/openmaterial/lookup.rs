@@ -1,6 +1,6 @@
 //! Tables of BRDFs over wavelength and directions.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fmt::Write as _;
 
 use catseye::Vec3;
@@ -13,9 +13,9 @@ use crate::{Error, Geometry};
 pub const VISIBLE_NM: f64 = 555.0;
 /// Wavelengths that the format can hold, nanometres.
 const WAVELENGTHS_NM: [f64; 2] = [1.0, 17.16e6];
-/// Greatest angles of the schema, in radians: pi / 2 and 2 pi, cut off.
-const MAX_ZENITH: f64 = 1.570_796;
-const MAX_AZIMUTH: f64 = 6.283_185;
+/// Greatest angles, in radians: the schema's are pi / 2 and 2 pi, cut off after six decimals.
+const MAX_ZENITH: f64 = FRAC_PI_2 - 1e-6;
+const MAX_AZIMUTH: f64 = TAU - 1e-6;
 /// Decimals of the angles that are written: finer than a hundredth of the narrowest step.
 const DECIMALS: usize = 7;
 
