@@ -108,7 +108,7 @@ Example:
 pub(crate) const FIT: &str = "\
 Example:
   $ catseye fit astm-d4956:iii:white --luminance-factor 0.27 -o sign.mtlx --report sign.html
-  $ printf 'observation_deg,entrance_deg,value,unit\\n0.2,5,250,cd/lx/m2\\n0.5,5,95,cd/lx/m2\\n' > sheet.csv
+  $ catseye standards show fra-224:white > sheet.csv
   $ catseye fit sheet.csv -o sheet.mtlx";
 
 /// Example of `catseye plot ra`.
