@@ -38,7 +38,7 @@ Example:
   $ catseye standards list iso20471
   ISO 20471
     Intertraffic World 2020 p. 172, journal-download.co.uk/digitalmagazines/ITW/ITW01NOV2019/page_172.html
-    iso20471:separate:white  16 values of R_A (minimum) at observation 0.2 0.333 1 1.5, entrance 5 20 30 40";
+    iso20471:separate:white  16 x R_A minimum at observation 0.2 0.333 1 1.5, entrance 5 20 30 40";
 
 /// Example of `catseye standards list`.
 pub(crate) const STANDARDS_LIST: &str = STANDARDS;
