@@ -4,7 +4,7 @@ use catseye::Model;
 use clap::{Parser, Subcommand, ValueEnum};
 
 use crate::verbs::{
-    albedo, eval, fit, furnace, materialx, measure, plot, render, roughness, sample, standards,
+    albedo, eval, fit, furnace, materialx, measure, openmaterial, plot, render, roughness, sample, standards,
 };
 
 /// The retro-reflective BSDF: evaluate it, sample it, plot it, render with it.
@@ -34,6 +34,7 @@ enum Verb {
     Roughness(roughness::Args),
     Plot(plot::Args),
     Materialx(materialx::Args),
+    Openmaterial(openmaterial::Args),
 }
 
 impl Cli {
@@ -51,6 +52,7 @@ impl Cli {
             Verb::Roughness(args) => args.run(),
             Verb::Plot(args) => args.run(),
             Verb::Materialx(args) => args.run(),
+            Verb::Openmaterial(args) => args.run(),
         }
     }
 }

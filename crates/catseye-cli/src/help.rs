@@ -38,7 +38,7 @@ Example:
   $ catseye standards list iso20471
   ISO 20471
     Intertraffic World 2020 p. 172, journal-download.co.uk/digitalmagazines/ITW/ITW01NOV2019/page_172.html
-    iso20471:separate:white  16 values of R_A (minimum) at observation 0.2 0.333 1 1.5, entrance 5 20 30 40";
+    iso20471:separate:white  16 x R_A minimum at observation 0.2 0.333 1 1.5, entrance 5 20 30 40";
 
 /// Example of `catseye standards list`.
 pub(crate) const STANDARDS_LIST: &str = STANDARDS;
@@ -62,7 +62,8 @@ Example:
 const MEASURE: &str = "\
 Example:
   $ catseye measure materials/sheeting.mtlx --standard fmvss108:dot-c2:white
-  $ catseye measure materials/sheeting.mtlx --verdict";
+  $ catseye measure materials/sheeting.mtlx --verdict
+  $ catseye measure materials/sheeting.mtlx --standard fmvss108:dot-c2:white --instrument";
 
 const VALUES: &str = "\
 Table format:
@@ -80,6 +81,11 @@ Table format:
   - Other columns are carried through; one named model is replaced.
   - An empty cell is a missing one. A bad row is an error that names line and
     column; nothing is printed then.";
+
+/// Example of `catseye openmaterial`.
+pub(crate) const OPENMATERIAL: &str = "\
+Example:
+  $ catseye openmaterial materials/sheeting.mtlx --tint 905=0.3 -o sheeting.xomp";
 
 /// The format of tables of values, and an example of `catseye measure`.
 pub(crate) fn measure() -> String {
@@ -108,7 +114,7 @@ Example:
 pub(crate) const FIT: &str = "\
 Example:
   $ catseye fit astm-d4956:iii:white --luminance-factor 0.27 -o sign.mtlx --report sign.html
-  $ printf 'observation_deg,entrance_deg,value,unit\\n0.2,5,250,cd/lx/m2\\n0.5,5,95,cd/lx/m2\\n' > sheet.csv
+  $ catseye standards show fra-224:white > sheet.csv
   $ catseye fit sheet.csv -o sheet.mtlx";
 
 /// Example of `catseye plot ra`.

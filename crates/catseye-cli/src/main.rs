@@ -19,6 +19,7 @@ mod query;
 mod reference;
 mod report;
 mod table;
+mod traced;
 mod values;
 mod verbs;
 

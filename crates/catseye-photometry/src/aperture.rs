@@ -146,7 +146,7 @@ impl ApertureRule {
 
     /// The mean of `value(wo, wi)` over both apertures.
     ///
-    /// Of f cos cos it is the R_A that the instrument reads. Where the lobe's full width at half maximum is at least the
+    /// Of f cos cos it is the `R_A` that the instrument reads. Where the lobe's full width at half maximum is at least the
     /// wider aperture's diameter the error is below 1e-4 of the mean or of the value on the axes, down to 1e-6 of the peak.
     pub fn mean(
         &self,

@@ -1,7 +1,7 @@
 //! Between what a lobe looks like in a photometer and its parameters: width and height.
 //!
-//! At entrance angle 0 the disk lobe has a closed form over the observation angle alpha. With s = tan(alpha/2)^2, which
-//! is the square of the disk offset there (docs/theory.md, section 2), and `z_o = (1-s)/(1+s)`:
+//! At entrance angle 0 the disk lobe has a closed form over the observation angle alpha (docs/theory.md, section 10). With
+//! s = tan(alpha/2)^2, the square of the disk offset there:
 //!
 //! ```text
 //! R_A(alpha) = R_A(0) (1-s)^(n+3) / (1+s)        R_A(0) = tint (n+1) / (4 pi)
@@ -78,7 +78,7 @@ pub fn peak_coefficient(tint: f64, [u, v]: [f64; 2]) -> f64 {
     if !(tint >= 0.0 && u >= 0.0 && v >= 0.0) {
         return f64::NAN;
     }
-    // docs/theory.md, section 9, in the widths of section 2: m_u = 1 / sqrt(n_u + 1).
+    // docs/theory.md, section 10, in the widths of section 2: m_u = 1 / sqrt(n_u + 1).
     tint / (4.0 * PI * width(u) * width(v))
 }
 

@@ -3,6 +3,7 @@
 
 use catseye::{Lobe as _, Params, Reciprocal, Vec3};
 use catseye_photometry::brdf::{Brdf, Cosine, Selection, Skipped, metrics};
+use catseye_photometry::fit::{EntranceKind, FitOptions, fit};
 use catseye_photometry::{Apertures, Geometry};
 
 fn lobe() -> Reciprocal<f64> {
@@ -209,6 +210,22 @@ fn a_selection_is_what_a_fit_can_use() {
         let expected = apertures.mean(sample.wo, sample.wi, |wo, wi| lobe().eval(wo, wi)[1]);
         assert!((mean / expected - 1.0).abs() < 1e-12 && row.value == sample.luminance());
     }
+}
+
+#[test]
+fn a_lobe_is_found_in_a_grid_that_has_the_retro_direction() {
+    let header = format!("{HEADER}#PARAM_OUT INV_STERADIAN\n");
+    let params = Params::isotropic(0.08).with_tint([0.5; 3]);
+    let text = alta(&Reciprocal::new(&params).unwrap(), &header, false);
+    let brdf = Brdf::parse(text.as_bytes(), "a.dat", Cosine::AsStated).unwrap();
+    let rows = Selection::default().observations(&brdf, &Apertures::both_deg(0.0).rule().unwrap());
+    assert!(rows.iter().any(|row| row.views[0].wo == row.views[0].wi));
+    let options =
+        FitOptions { lobes: Some(1), entrance: Some(EntranceKind::Constant), ..FitOptions::default() };
+    let found = fit(&rows, &options).unwrap().sheeting.lobes[0];
+    // The data are those of such a lobe, exactly.
+    assert!((found.roughness[0] / 0.08 - 1.0).abs() < 1e-4, "{found:?}");
+    assert!((found.strength / 0.5 - 1.0).abs() < 1e-4, "{found:?}");
 }
 
 #[test]

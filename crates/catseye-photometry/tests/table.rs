@@ -1,6 +1,7 @@
 //! Tables are read as they are meant, and whatever is wrong with one is said with its place and the way out.
 
 use catseye_photometry::{Limit, Need, Quantity, Table, Unit};
+use proptest::prelude::*;
 
 fn values(text: &str) -> Result<Table, String> {
     Table::parse(text.as_bytes(), "t.csv", Need::Values).map_err(|error| error.to_string())
@@ -136,4 +137,34 @@ fn lines_are_counted_through_crlf_byte_order_mark_and_quoted_line_ends() {
                 0.2,5,70,cd/lx/m2,\"a\r\nb\"\r\n\r\n0.2,30,0,cd/lx/m2,c\r\n";
     let error = values(text).unwrap_err();
     assert!(error.starts_with("t.csv:5: column value: is 0"), "{error}");
+}
+
+proptest! {
+    #[test]
+    fn no_text_makes_the_reader_panic(cells in proptest::collection::vec("[-0-9.eEinfaN%,\"cd/lxmr2R_A \n]{0,8}", 0..12)) {
+        let header = "observation_deg,entrance_deg,value,unit\n";
+        for need in [Need::Geometry, Need::Values] {
+            Table::parse(cells.join(",").as_bytes(), "t", need).ok();
+            if let Ok(table) = Table::parse((header.to_owned() + &cells.join(",")).as_bytes(), "t", need) {
+                for row in table.rows() {
+                    prop_assert!(row.geometry().is_above_horizon());
+                    prop_assert!(row.value.is_none_or(|value| value > 0.0 && value.is_finite()));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn what_is_written_is_read_again(
+        rows in proptest::collection::vec((0.05_f64..60.0, -29.0_f64..89.0, 0.02_f64..4e4, "[a-z ,\"]{0,9}"), 1..9),
+    ) {
+        let mut text = "observation_deg,entrance_deg,value,unit,class\n".to_owned();
+        for (i, (observation, entrance, value, class)) in rows.iter().enumerate() {
+            let class = class.replace('"', "\"\"");
+            text += &format!("{observation},{entrance},{value},cd/lx/m2 (R_A),\"{i}{class}\"\n");
+        }
+        let Ok(table) = Table::parse(text.as_bytes(), "t", Need::Values) else { return Ok(()) };
+        let again = Table::parse(table.to_csv(&[]).as_bytes(), "t", Need::Values).unwrap();
+        prop_assert_eq!(&table, &again);
+    }
 }

@@ -53,7 +53,7 @@ pub struct Estimate {
     pub standard_error: f64,
 }
 
-/// What the instrument reads: coefficients of retro-reflection R_A in cd/lx/m2 (the same number as 1/sr).
+/// What the instrument reads: coefficients of retro-reflection `R_A` in cd/lx/m2 (the same number as 1/sr).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reading {
     /// For each channel of linear Rec. 709, as if the light were of that colour.
@@ -65,7 +65,7 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// The coefficient of retro-reflected luminance R_L = R_A / cos(nu) for white light, in cd/m2/lx, where nu is the angle
+    /// The coefficient of retro-reflected luminance `R_L = R_A / cos(nu)` for white light, in cd/m2/lx, where nu is the angle
     /// between the specimen's normal and the receiver (ASTM E808).
     #[must_use]
     pub fn r_l(&self) -> Estimate {
@@ -162,7 +162,7 @@ impl Retroreflectometer {
         Ok(Setup { scene: builder.build()?, receiver })
     }
 
-    /// The mean of R_A over the paths of one replicate, per channel.
+    /// The mean of `R_A` over the paths of one replicate, per channel.
     fn replicate(&self, setup: &Setup, part: u32, paths: u32, seed: u32) -> [f64; 3] {
         let mut sum = DVec3::ZERO;
         for index in 0..paths {
@@ -174,7 +174,7 @@ impl Retroreflectometer {
         (sum / f64::from(paths)).to_array()
     }
 
-    /// What the light between a point of the specimen and a point of the receiver adds to R_A = E_r d^2 / (E_perp A).
+    /// What the light between a point of the specimen and a point of the receiver adds to `R_A = E_r d^2 / (E_perp A)`.
     fn path(&self, setup: &Setup, receiver: DVec3, point: DVec3, sampler: &Sampler) -> DVec3 {
         let along = point - receiver;
         let squared = along.length_squared();

@@ -4,10 +4,11 @@ use std::io::{self, Write as _};
 use std::path::PathBuf;
 
 use anyhow::{Context as _, bail};
+use catseye_materialx::Material;
 use catseye_photometry::standards::{Catalogue, Class};
 use catseye_photometry::verdict::{Verdict, verdicts};
 use catseye_photometry::{Need, Row, Table};
-use catseye_render::Probe;
+use catseye_render::{Estimate, Probe};
 use serde_json::{Map, Value, json};
 
 use crate::args::ModelArg;
@@ -15,6 +16,7 @@ use crate::failure::Usage;
 use crate::library::LibraryArgs;
 use crate::output::Output;
 use crate::photometer::{Channel, Photometer};
+use crate::traced::{self, Traced};
 use crate::{help, report, values};
 
 /// The geometries that are measured where none are given: those of the standards for sheeting.
@@ -53,6 +55,14 @@ pub(crate) struct Args {
     /// Area of the reflector in square metres, for rows of R_I
     #[arg(long, value_name = "AREA")]
     area_m2: Option<f64>,
+    /// Trace the light of an instrument as ASTM E810 describes it (15 m away, apertures of 0.1 degrees, specimen of 20 cm) instead
+    /// of evaluating the BSDF; adds a column `standard_error`
+    #[arg(long, conflicts_with = "verdict")]
+    instrument: bool,
+    /// Light paths of each row
+    #[arg(long, value_name = "N", default_value_t = traced::SAMPLES, requires = "instrument")]
+    #[arg(value_parser = clap::value_parser!(u32).range(32..=1 << 24))]
+    samples: u32,
     /// Say which classes of standards the material meets, and where it fails the others, instead of the rows
     #[arg(long, conflicts_with = "geometry")]
     verdict: bool,
@@ -76,7 +86,11 @@ impl Args {
         let material = self.library.material(&self.document, self.material.as_deref())?;
         let probe = Probe::new(&material, self.model.0)?;
         let photometer = Photometer { probe, channel: self.channel, area: self.area_m2 };
-        let text = if self.verdict { self.judge(&photometer)? } else { self.measure(&photometer)? };
+        let text = match self.verdict {
+            true => self.judge(&photometer)?,
+            false if self.instrument => self.trace(&material)?,
+            false => self.measure(&photometer)?,
+        };
         match output {
             None => Ok(io::stdout().lock().write_all(text.as_bytes())?),
             Some(file) => file.write(text.as_bytes()),
@@ -85,21 +99,41 @@ impl Args {
 
     /// The rows with the column `model`.
     fn measure(&self, photometer: &Photometer) -> anyhow::Result<String> {
+        self.answer(["model"], |row| Ok([photometer.measure(row.quantity, &row.geometry())?]))
+    }
+
+    /// The rows with the columns `model` and `standard_error`.
+    fn trace(&self, material: &Material) -> anyhow::Result<String> {
+        let (model, channel, area, samples) = (self.model.0, self.channel, self.area_m2, self.samples);
+        let traced = Traced { material, model, channel, area, samples };
+        self.answer(["model", "standard_error"], |row| {
+            let Estimate { value, standard_error } = traced.measure(row.quantity, &row.geometry())?;
+            Ok([value, standard_error])
+        })
+    }
+
+    /// The rows with columns added, whose values are given in the SI unit of the row's quantity.
+    fn answer<const N: usize>(
+        &self,
+        names: [&str; N],
+        values: impl Fn(&Row) -> anyhow::Result<[f64; N]>,
+    ) -> anyhow::Result<String> {
         let table = self.table()?;
-        let mut model = Vec::new();
+        let mut answers = Vec::new();
         for row in table.rows() {
-            let value = photometer
-                .measure(row.quantity, &row.geometry())
-                .with_context(|| format!("{}:{}", table.name(), row.line))?;
-            model.push(row.unit.from_si(value));
+            let values = values(row).with_context(|| format!("{}:{}", table.name(), row.line))?;
+            answers.push(values.map(|value| row.unit.from_si(value)));
         }
         if self.json {
-            let rows: Vec<Value> =
-                table.rows().iter().zip(&model).map(|(row, &model)| object(&table, row, model)).collect();
-            return report::json(&Value::from(rows));
+            let rows = table.rows().iter().zip(&answers);
+            let rows = rows.map(|(row, answer)| object(&table, row, names.iter().copied().zip(*answer)));
+            return report::json(&rows.collect());
         }
         // As in every table of the command: the digits that give the same value back.
-        Ok(table.to_csv(&[("model", model.iter().map(|value| format!("{value:?}")).collect())]))
+        let column = |i: usize| answers.iter().map(|answer| format!("{:?}", answer[i])).collect();
+        let columns: Vec<(&str, Vec<String>)> =
+            names.iter().enumerate().map(|(i, name)| (*name, column(i))).collect();
+        Ok(table.to_csv(&columns))
     }
 
     fn table(&self) -> anyhow::Result<Table> {
@@ -156,15 +190,15 @@ fn of_colour(colour: &str) -> anyhow::Result<Vec<Class>> {
     Ok(found)
 }
 
-/// A row as JSON: its cells by their column, numbers where the column is one of numbers, and the model's value.
-fn object(table: &Table, row: &Row, model: f64) -> Value {
+/// A row as JSON: its cells by their column, numbers where the column is one of numbers, and what was measured.
+fn object<'a>(table: &Table, row: &Row, answer: impl Iterator<Item = (&'a str, f64)>) -> Value {
     const NUMBERS: [&str; 4] = ["observation_deg", "entrance_deg", "rotation_deg", "value"];
     let mut object = Map::new();
     for (name, cell) in table.header().iter().zip(&row.cells) {
         let number = cell.parse::<f64>().ok().filter(|_| NUMBERS.contains(&name.as_str()));
         object.insert(name.clone(), number.map_or_else(|| json!(cell), |number| json!(number)));
     }
-    object.insert("model".to_owned(), json!(model));
+    object.extend(answer.map(|(name, value)| (name.to_owned(), json!(value))));
     Value::Object(object)
 }
 

@@ -7,6 +7,7 @@ pub(crate) mod fit;
 pub(crate) mod furnace;
 pub(crate) mod materialx;
 pub(crate) mod measure;
+pub(crate) mod openmaterial;
 pub(crate) mod plot;
 pub(crate) mod plot_ra;
 pub(crate) mod render;

@@ -101,10 +101,9 @@ impl Show {
 /// How many values there are, of what, and at which angles.
 fn geometry(class: &Class) -> String {
     let rows = class.rows();
-    let noun = if rows.len() == 1 { "value " } else { "values" };
     let limits = distinct(rows.iter().map(|row| row.limit.name().to_owned())).join(" and ");
     format!(
-        "{:2} {noun} of {} ({limits}) at observation {}, entrance {}",
+        "{:2} x {} {limits} at observation {}, entrance {}",
         rows.len(),
         rows[0].quantity,
         angles(rows, |row| row.observation_deg),

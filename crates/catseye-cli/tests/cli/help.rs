@@ -2,7 +2,7 @@
 
 use crate::run::{Bench, alike, output};
 
-const VERBS: [&str; 18] = [
+const VERBS: [&str; 19] = [
     "render",
     "furnace",
     "eval",
@@ -21,6 +21,7 @@ const VERBS: [&str; 18] = [
     "materialx",
     "materialx export",
     "materialx check",
+    "openmaterial",
 ];
 
 #[test]

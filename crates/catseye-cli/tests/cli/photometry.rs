@@ -252,3 +252,86 @@ fn roughness_and_half_power_angle_lead_to_each_other() {
         assert!(outcome.stderr.contains(message), "{args}: {}", outcome.stderr);
     }
 }
+
+#[test]
+fn the_instrument_measures_what_the_bsdf_says() {
+    let bench = Bench::new();
+    // A lobe with a half-power angle of 1.35 degrees: apertures of 0.1 degrees blur it by less than 0.3 %.
+    bench.write("m.mtlx", &document("0.02"));
+    let run = |args: &str| {
+        let table = "observation_deg,entrance_deg,rotation_deg,unit\n\
+                     0.2,-4,0,cd/lx/m2\n0.33,30,90,cd/lx/m2\n1,40,0,1/sr\n2,-4,0,mcd/lx/m2\n";
+        let outcome = bench.catseye(&format!("measure m.mtlx --geometry - {args}"), table);
+        assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""), "{args}");
+        outcome.stdout
+    };
+    let closed = column(&run(""), "model");
+    let text = run("--instrument --samples 16384");
+    let (traced, errors) = (column(&text, "model"), column(&text, "standard_error"));
+    for ((traced, closed), error) in traced.iter().zip(closed).zip(errors) {
+        assert!((traced / closed - 1.0).abs() < 0.01, "{traced} {closed}");
+        assert!(error > 0.0 && error < 3e-3 * traced, "{error} {traced}");
+    }
+    let rows: serde_json::Value = serde_json::from_str(&run("--instrument --samples 64 --json")).unwrap();
+    assert!(rows[2]["model"].is_f64() && rows[2]["standard_error"].is_f64(), "{rows}");
+}
+
+#[test]
+fn the_instrument_says_what_it_can_not_measure() {
+    let run =
+        |args: &str, stdin: &str| bench().catseye(&format!("measure m.mtlx --instrument {args}"), stdin);
+    let integral = run("--geometry -", "observation_deg,entrance_deg,quantity,unit\n1,5,Q_d,mcd/lx/m2\n");
+    assert!(
+        integral.code == 1 && integral.stderr.contains("<stdin>:2: Q_d is an integral"),
+        "{}",
+        integral.stderr
+    );
+    let whole = run("--geometry -", "observation_deg,entrance_deg,unit\n1,5,cd/lx\n");
+    assert!(whole.code == 1 && whole.stderr.contains("--area-m2"), "{}", whole.stderr);
+    assert_eq!(run("--samples 0", "").code, 2);
+    assert_eq!(run("--verdict", "").code, 2);
+}
+
+#[test]
+fn open_material_files_are_written_and_read_back() {
+    let bench = bench();
+    let args = "openmaterial m.mtlx -o out.xomp --tint 905=0.3 --tint 1550=0.1";
+    let outcome = bench.catseye(args, "");
+    assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""));
+    assert_eq!(bench.files(), ["m.mtlx", "out.xomp", "out_brdf.xompt"]);
+    let document = |name: &str| -> serde_json::Value {
+        serde_json::from_str(&std::fs::read_to_string(bench.path(name)).unwrap()).unwrap()
+    };
+    let properties = &document("out.xomp")["materialProperties"];
+    let data = &properties["retroreflectivityData"];
+    let measured = column(&measured("--geometry -", "observation_deg,entrance_deg\n0.2,-4\n"), "model");
+    let written = data["coefficientOfRetroreflection"].as_f64().unwrap();
+    assert!((written / measured[0] - 1.0).abs() < 1e-12, "{written} {measured:?}");
+    assert!(data["sources"].as_str().unwrap().contains("0.2 deg observation and -4 deg entrance"));
+    assert_eq!(properties["brdfUris"], serde_json::json!(["out_brdf.xompt"]));
+    let wavelengths = &document("out_brdf.xompt")["brdf"]["wavelengths"];
+    assert_eq!(wavelengths, &serde_json::json!([5.55e-7, 9.05e-7, 1.55e-6]));
+
+    let fitted = bench.catseye("fit out.xomp -o back.mtlx", "");
+    assert_eq!(fitted.code, 0, "{}{}", fitted.stdout, fitted.stderr);
+    let one = "observation_deg,entrance_deg\n0.2,-4\n";
+    let back = column(&bench.catseye("measure back.mtlx --geometry -", one).stdout, "model");
+    assert!((back[0] / written - 1.0).abs() < 0.01, "{back:?} {written}");
+}
+
+#[test]
+fn bad_wishes_for_open_material_leave_no_file() {
+    for (args, problem) in [
+        ("-o out.json", "must end in .xomp"),
+        ("-o out.xomp --tint 905", "905=0.3"),
+        ("-o out.xomp --tint 905=0.1 --tint 905=0.2", "twice"),
+        ("-o out.xomp --tint 905=-1", "must be 0 or above"),
+        ("-o out.xomp --observation-deg 0", "must be above 0"),
+        ("-o out.xomp --entrance-deg 95", "above the surface"),
+    ] {
+        let bench = bench();
+        let outcome = bench.catseye(&format!("openmaterial m.mtlx {args}"), "");
+        assert!(outcome.code > 0 && outcome.stderr.contains(problem), "{args}: {}", outcome.stderr);
+        assert_eq!(bench.files(), ["m.mtlx"], "{args}");
+    }
+}

@@ -65,12 +65,13 @@ fn coefficients_are_plotted_with_the_values_of_any_standard_or_table() {
         "plot ra materials/sheeting.mtlx --standard t.csv -o d.svg",
         "plot ra materials/matte_white.mtlx --standard en1436:r3 -o e.svg",
         "plot ra --roughness 0.0001 --tint 0 -o f.svg",
+        "plot --ra --roughness 0.02 --standard fr-plate:white -o g.svg",
     ];
     for args in cases {
         let outcome = bench.catseye(args, "");
         assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""), "{args}");
     }
-    for name in ["a.svg", "b.svg", "d.svg", "e.svg", "f.svg"] {
+    for name in ["a.svg", "b.svg", "d.svg", "e.svg", "f.svg", "g.svg"] {
         let text = fs::read_to_string(bench.path(name)).unwrap();
         assert!(!text.contains("NaN") && !text.contains("inf"), "{name} has no undefined coordinate");
     }

@@ -1,6 +1,6 @@
 //! MERL's `.binary`: 90 x 90 x 180 values of each channel over half and difference angle.
 //!
-//! Matusik, Pfister, Brand and McMillan, "A Data-Driven Reflectance Model", SIGGRAPH 2003, and the code published with
+//! Matusik, Pfister, Brand and `McMillan`, "A Data-Driven Reflectance Model", SIGGRAPH 2003, and the code published with
 //! it: three `int32` dimensions, then planes of `f64` for red, green and blue, all little-endian, the difference's
 //! azimuth fastest. Negative values were not measured.
 

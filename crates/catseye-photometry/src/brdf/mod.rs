@@ -46,7 +46,7 @@ impl BrdfSample {
     }
 }
 
-/// What a file's values are.
+/// What the values of an ALTA file are. MERL's are f.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Cosine {
     /// What the file's header says; f where it says nothing.

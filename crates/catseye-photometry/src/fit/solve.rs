@@ -191,6 +191,8 @@ fn reweight(weights: &mut [f64], observations: &[Observation], solution: &Soluti
 /// A start: widths spread over the observation angles, strengths to match, the rest around where ignorance puts it.
 fn starting_point(form: Form, unknowns: &[Unknown], observations: &[Observation], start: usize) -> Vec<f64> {
     let angles = observations.iter().flat_map(|row| &row.views).map(|view| angle_between(view.wo, view.wi));
+    // Measured BRDFs also have the retro direction itself, which is no lobe's width.
+    let angles = angles.filter(|angle| *angle > 0.0);
     let (least, most) = angles.fold((f64::INFINITY, 0.0_f64), |(low, high), a| (low.min(a), high.max(a)));
     let reach = (1.5 * most / least).ln();
     // A sequence of low discrepancy, another one for each number; the first start is in the middle.

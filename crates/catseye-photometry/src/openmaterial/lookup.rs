@@ -1,6 +1,6 @@
 //! Tables of BRDFs over wavelength and directions.
 
-use std::f64::consts::{PI, TAU};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
 use std::fmt::Write as _;
 
 use catseye::Vec3;
@@ -11,11 +11,11 @@ use crate::{Error, Geometry};
 
 /// The wavelength that stands for visible light, in nanometres: where the eye sees best (CIE 1924).
 pub const VISIBLE_NM: f64 = 555.0;
-/// Wavelengths that the format can hold, metres.
-const WAVELENGTHS: [f64; 2] = [1e-9, 17.16e-3];
-/// Greatest angles of the schema, in radians: pi / 2 and 2 pi, cut off.
-const MAX_ZENITH: f64 = 1.570_796;
-const MAX_AZIMUTH: f64 = 6.283_185;
+/// Wavelengths that the format can hold, nanometres.
+const WAVELENGTHS_NM: [f64; 2] = [1.0, 17.16e6];
+/// Greatest angles, in radians: the schema's are pi / 2 and 2 pi, cut off after six decimals.
+const MAX_ZENITH: f64 = FRAC_PI_2 - 1e-6;
+const MAX_AZIMUTH: f64 = TAU - 1e-6;
 /// Decimals of the angles that are written: finer than a hundredth of the narrowest step.
 const DECIMALS: usize = 7;
 
@@ -66,7 +66,8 @@ impl BrdfTable {
     ) -> Result<String, Error> {
         let bands = self.checked(metadata)?;
         let rows = rows(brdf);
-        let metres = |band: &Band| band.wavelength_nm * 1e-9;
+        // By a power of ten that is exact, so that 555 nm are written as 5.55e-7.
+        let metres = |band: &Band| band.wavelength_nm / 1e9;
         let mut document = metadata.document("material_brdf_schema", "brdf", Some(sources));
         let wavelengths: Vec<f64> = bands.iter().map(metres).collect();
         let mut brdf = json!({ "wavelengths": wavelengths });
@@ -87,8 +88,8 @@ impl BrdfTable {
                 write!(
                     table,
                     "{separator}\n      [{}, {incident:.DECIMALS$}, {exit:.DECIMALS$}, {azimuth:.DECIMALS$}, {}]",
-                    metres(band),
-                    band.tint * value
+                    json!(metres(band)),
+                    json!(band.tint * value)
                 )
                 .ok();
             }
@@ -105,8 +106,8 @@ impl BrdfTable {
         if bands.is_empty() {
             return Err(fail("needs a wavelength at least".to_owned()));
         }
+        let [least, greatest] = WAVELENGTHS_NM;
         for Band { wavelength_nm, tint } in &bands {
-            let [least, greatest] = WAVELENGTHS.map(|metres| metres * 1e9);
             if !(least..=greatest).contains(wavelength_nm) {
                 return Err(fail(format!("wavelength {wavelength_nm} nm is outside {least} to {greatest}")));
             }

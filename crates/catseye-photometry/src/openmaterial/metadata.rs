@@ -42,7 +42,6 @@ impl Metadata {
     pub(super) fn document(&self, schema: &str, kind: &str, sources: Option<&str>) -> Map<String, Value> {
         let mut metadata = json!({
             "name": self.name,
-            "description": self.description,
             "uuid": self.uuid(kind),
             "materialVersion": VERSION,
             "openMaterial3dVersion": VERSION,
@@ -50,6 +49,9 @@ impl Metadata {
             "license": self.license,
             "authors": self.authors,
         });
+        if !self.description.is_empty() {
+            metadata["description"] = self.description.as_str().into();
+        }
         if let Some(sources) = sources {
             metadata["sources"] = sources.into();
         }
