@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use catseye_photometry::brdf::{Metrics, metrics};
-use catseye_photometry::fit::{EntranceKind, Fit, Form, Observation};
+use catseye_photometry::fit::{Aim, EntranceKind, Fit, Form, Observation};
 use catseye_photometry::half_power::half_power_angle;
 use serde_json::{Value, json};
 
@@ -30,7 +30,10 @@ impl Outcome<'_> {
         let (rows, worst, rms) = (self.observations.len(), percent(self.fit.worst), percent(self.fit.rms));
         let word = if self.fit.acceptable { "accepted" } else { "not accepted" };
         let tolerance = percent(self.tolerance);
-        format!("{word}: worst of {rows} values {worst} off, rms {rms}, tolerance {tolerance}")
+        let limits = self.observations.iter().zip(&self.fit.ratios).filter(|(row, _)| row.aim == Aim::AtLeast);
+        let spare = limits.map(|(_, ratio)| ratio - 1.0).reduce(f64::max);
+        let spare = spare.map_or(String::new(), |spare| format!(", minima exceeded by at most {}", percent(spare)));
+        format!("{word}: worst of {rows} values {worst} off, rms {rms}, tolerance {tolerance}{spare}")
     }
 
     /// How good the model of a measured BRDF is.

@@ -15,9 +15,9 @@ const ROUGHNESS_STEP: f64 = 1e-4;
 const PRIOR_WEIGHT: f64 = 1e-3;
 /// Weight of an albedo above 1.
 const ENERGY_WEIGHT: f64 = 100.0;
-/// Weight of a bound that is broken, and of one that is met with something to spare.
+/// Weight of a limit that is broken, and of a minimum that is met with something to spare.
 const BROKEN_WEIGHT: f64 = 10.0;
-pub(crate) const SPARE_WEIGHT: f64 = 0.2;
+const SPARE_WEIGHT: f64 = 0.5;
 /// The model's values are kept above this share of the observed one, so that logarithms stay finite.
 const LEAST_RATIO: f64 = 1e-12;
 
@@ -184,10 +184,13 @@ pub(crate) fn excess(sheeting: &Sheeting, channel_peak: f64) -> f64 {
     (sheeting.albedo_bound() * channel_peak - 1.0).max(0.0)
 }
 
-fn aim_weight(aim: Aim, log_ratio: f64) -> f64 {
+/// How much a row's logarithm counts.
+pub(crate) fn aim_weight(aim: Aim, log_ratio: f64) -> f64 {
     match (aim, log_ratio >= 0.0) {
         (Aim::Equal, _) => 1.0,
-        (Aim::AtLeast, true) | (Aim::AtMost, false) => SPARE_WEIGHT,
+        // The least that meets a standard is what a class means; below a maximum is nowhere in particular.
+        (Aim::AtLeast, true) => SPARE_WEIGHT,
+        (Aim::AtMost, false) => 0.0,
         (Aim::AtLeast, false) | (Aim::AtMost, true) => BROKEN_WEIGHT,
     }
 }

@@ -155,7 +155,8 @@ pub(crate) fn choose(
     Ok((polish(best, observations, options.channel_peak, options.tolerance), trials))
 }
 
-/// What makes a form better than another one. The last two are Bayesian information criteria.
+/// What makes a form better than another one. The last two are Bayesian information criteria, of limits with the prior:
+/// there is much that meets them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Judged {
     /// The worst row of a table; the first form that meets the tolerance will do.
@@ -174,7 +175,7 @@ impl Judged {
         match self {
             Self::ByWorst => solution.worst,
             Self::ByNoise => rows * 2.0 * solution.rms.max(f64::MIN_POSITIVE).ln() + price,
-            Self::ByLimits(tolerance) => solution.chi_square(tolerance) + price,
+            Self::ByLimits(tolerance) => solution.improbability(tolerance) + price,
         }
     }
 }

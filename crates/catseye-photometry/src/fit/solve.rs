@@ -4,7 +4,7 @@ use levenberg_marquardt::LevenbergMarquardt;
 
 use super::form::{Form, Meaning, Unknown};
 use super::observation::{Aim, Observation};
-use super::problem::{Problem, SPARE_WEIGHT, excess, log_ratios};
+use super::problem::{Problem, aim_weight, excess, log_ratios};
 use crate::sheeting::Sheeting;
 
 /// Starting points: what more of them found on the standards' tables was no better.
@@ -28,6 +28,8 @@ const WEIGHT_POWER: f64 = 0.7;
 const LEAST_WEIGHT: f64 = 0.05;
 /// Rows up to which every single one is held to the tolerance; more of them are measurements with noise.
 pub(crate) const TABLE_ROWS: usize = 64;
+/// What a minimum is exceeded by at least, as a share: a document has six digits, and a renderer single precision.
+const LIMIT_MARGIN: f64 = 1e-3;
 /// An albedo this far above 1 is rounding.
 const ENERGY_SLACK: f64 = 1e-6;
 
@@ -38,7 +40,7 @@ pub(crate) struct Solution {
     pub(crate) x: Vec<f64>,
     pub(crate) sheeting: Sheeting,
     pub(crate) log_ratios: Vec<f64>,
-    /// The rows' errors as logarithms, what a limit has to spare counting a little.
+    /// The rows' errors as logarithms: those of limits count more where they are broken, less where there is some to spare.
     errors: Vec<f64>,
     /// The greatest error of a row, as a share of its value.
     pub(crate) worst: f64,
@@ -121,7 +123,7 @@ fn solution(
     // Limits and the energy are penalties in the problem, and laws here; of the two the energy's is the higher.
     let logs = log_ratios(&form.sheeting(&form.unknowns(), &x), observations)?;
     let at_least = observations.iter().zip(&logs).filter(|(row, _)| row.aim == Aim::AtLeast);
-    let missing = at_least.map(|(_, log)| -log).fold(0.0, f64::max);
+    let missing = at_least.map(|(_, log)| LIMIT_MARGIN - log).fold(0.0, f64::max);
     let mut strengthen = |by: f64| {
         for (x, unknown) in x.iter_mut().zip(form.unknowns()) {
             if matches!(unknown.meaning, Meaning::Strength(_) | Meaning::Diffuse) {
@@ -137,10 +139,7 @@ fn solution(
     let sheeting = form.sheeting(&form.unknowns(), &x);
     let log_ratios = log_ratios(&sheeting, observations)?;
     let misses = observations.iter().zip(&log_ratios).map(|(row, &log)| miss(row.aim, log));
-    let errors = observations.iter().zip(&log_ratios).map(|(row, &log)| match row.aim {
-        Aim::Equal => log,
-        aim => miss(aim, log).max(SPARE_WEIGHT * log.abs()),
-    });
+    let errors = observations.iter().zip(&log_ratios).map(|(row, &log)| aim_weight(row.aim, log) * log);
     let errors = errors.collect();
     let worst = misses.clone().fold(0.0, f64::max).exp_m1();
     let rms = (misses.map(|miss| miss * miss).sum::<f64>() / observations.len() as f64).sqrt();
@@ -160,13 +159,9 @@ impl Solution {
         }
     }
 
-    /// Sum of the squared errors in units of the tolerance, what a limit has to spare counting a little.
-    pub(crate) fn chi_square(&self, tolerance: f64) -> f64 {
-        self.errors.iter().map(|error| (error / tolerance).powi(2)).sum()
-    }
-
-    fn improbability(&self, tolerance: f64) -> f64 {
-        let rows = self.chi_square(tolerance);
+    /// Sum of the squared errors in units of the tolerance, and of the squared surprises.
+    pub(crate) fn improbability(&self, tolerance: f64) -> f64 {
+        let rows: f64 = self.errors.iter().map(|error| (error / tolerance).powi(2)).sum();
         let numbers = self.form.unknowns().into_iter().zip(&self.x);
         rows + numbers.map(|(unknown, x)| unknown.surprise(*x).powi(2)).sum::<f64>()
     }
