@@ -3,6 +3,7 @@
 
 mod bad_input;
 mod csv_contract;
+mod fit;
 mod furnace_table;
 mod help;
 mod materialx_check;
