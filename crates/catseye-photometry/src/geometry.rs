@@ -25,8 +25,12 @@ pub struct Geometry {
 /// angle, falls on the side away from the receiver. The positive second axis is `(cos b1, 0, -sin b1)`. Seen from the
 /// source, `rotation` turns counter-clockwise, which is right-handed about the retroreflector axis.
 ///
-/// The definitions are those of ASTM E808 as they are quoted in public; the sense of `entrance_2`, of which no public
-/// text speaks and no table in this crate makes use, is this crate's: positive towards +Y = Z x X.
+/// What of this public texts confirm: the observation angle, cos beta = cos `beta_1` cos `beta_2`, and by consequence the
+/// sign of `entrance_1`, as the 30 m geometry of road markings has the receiver between source and normal at a positive
+/// entrance angle and presentation angle 0 (ASTM E1710, D4061). The senses of `entrance_2` (towards +Y = Z x X) and of the
+/// angles about an axis (counter-clockwise seen from the source) were not found in public and not checked against the
+/// text of E808. No table of this crate has an `entrance_2`, and the opposite senses mirror the geometry in the observation
+/// half-plane, which no isotropic surface and no pair of anisotropic axes in that plane can tell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Goniometer {
     /// Observation angle alpha, from the illumination axis to the observation axis, in `[0, pi]`.

@@ -8,6 +8,10 @@ use crate::{Geometry, Limit, Quantity, Row};
 /// Share of a limit that rounding may cost: 250 from cosines is not quite 250.
 const ROUNDING: f64 = 1e-9;
 
+/// Significant digits of values in texts, and how many there may be where fewer don't tell two values apart.
+const DIGITS: i32 = 3;
+const MOST_DIGITS: i32 = 10;
+
 /// A value that a standard asks for, and what the material has.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Check<'a> {
@@ -103,7 +107,10 @@ impl fmt::Display for Verdict<'_> {
         let verb = if self.is_met() { "meets" } else { "fails" };
         let nearest = if self.is_met() { ", nearest" } else { "" };
         let bound = if row.limit == Limit::Maximum { "at most" } else { "at least" };
-        let [asked, found] = [asked, found].map(|value| three_digits(row.unit.from_si(value)));
+        let shown = |digits| [asked, found].map(|value| significant(row.unit.from_si(value), digits));
+        // A near miss must not look like a hit.
+        let differs = |&digits: &i32| self.is_met() || shown(digits)[0] != shown(digits)[1];
+        let [asked, found] = shown((DIGITS..MOST_DIGITS).find(differs).unwrap_or(MOST_DIGITS));
         write!(
             f,
             "{verb} {}{nearest} at {} degree, entrance {} degree: {} {found}, {bound} {asked} {}",
@@ -118,13 +125,13 @@ impl fmt::Display for Verdict<'_> {
     }
 }
 
-/// A positive number with three significant digits, without an exponent.
-fn three_digits(value: f64) -> String {
+/// A positive number with some significant digits, without an exponent.
+fn significant(value: f64, digits: i32) -> String {
     if !(value > 0.0 && value.is_finite()) {
         return value.to_string();
     }
-    let digits = (2 - value.log10().floor() as i32).max(0) as usize;
-    let text = format!("{value:.digits$}");
+    let decimals = (digits - 1 - value.log10().floor() as i32).max(0) as usize;
+    let text = format!("{value:.decimals$}");
     if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
@@ -156,6 +163,14 @@ mod tests {
             failed.to_string(),
             "fails FMVSS 108 Grade DOT-C2 white at 0.2 degree, entrance -4 degree: R_A 100, at least 250 cd/lx/m2 (2 of 6 points)"
         );
+    }
+
+    #[test]
+    fn a_near_miss_does_not_look_like_a_hit() {
+        let catalogue = Catalogue::embedded().unwrap();
+        let class = catalogue.find("fmvss108:dot-c2:white").unwrap();
+        let text = Verdict::new(class, even(249.999)).unwrap().to_string();
+        assert!(text.contains("R_A 249.999, at least 250 cd/lx/m2"), "{text}");
     }
 
     #[test]

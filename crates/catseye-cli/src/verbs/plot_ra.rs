@@ -26,10 +26,13 @@ const ENTRANCES_DEG: [f64; 3] = [-4.0, 30.0, 45.0];
 /// The least observation angle that the axis ends at, in degrees.
 const LEAST_END_DEG: f64 = 2.0;
 
+/// `R_A` at a geometry, in cd/lx/m2.
+type Coefficient = Box<dyn Fn(&Geometry) -> anyhow::Result<f64>>;
+
 /// R_A over the observation angle, one curve for each entrance angle, with the values of a standard or a table
 ///
 /// Of a material, or of one lobe with --roughness and --tint. Upright triangles are minima, inverted ones maxima, dots are
-/// typical values; each has the colour of its entrance angle.
+/// typical values; each has the colour of its entrance angle. `plot --ra` is the same.
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::PLOT_RA)]
 #[command(group = ArgGroup::new("subject").required(true))]
@@ -90,7 +93,7 @@ impl Args {
     }
 
     /// What is plotted: its name, and its `R_A`.
-    fn subject(&self) -> anyhow::Result<(String, Box<dyn Fn(&Geometry) -> anyhow::Result<f64>>)> {
+    fn subject(&self) -> anyhow::Result<(String, Coefficient)> {
         let r_a = |f, geometry: &Geometry| {
             Quantity::RetroReflectionCoefficient.from_brdf(f, geometry).unwrap_or_default()
         };

@@ -13,7 +13,7 @@ use crate::{help, report};
 /// Convert between half-power angle and roughness, and between R_A and tint
 ///
 /// The half-power angle is the observation angle at which R_A has fallen to half of its peak, at entrance angle 0: half of the
-/// full width at half maximum, and what the node retro_sheeting_surface takes as half_power_angle. Exact for the lobe of
+/// full width at half maximum, and what the node `retro_sheeting_surface` takes as `half_power_angle`. Exact for the lobe of
 /// the proposal.
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::ROUGHNESS, arg_required_else_help = true)]

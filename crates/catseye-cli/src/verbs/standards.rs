@@ -41,7 +41,7 @@ struct List {
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::STANDARDS_SHOW)]
 struct Show {
-    /// STANDARD[:CLASS[:COLOUR]]; all classes that it fits are printed
+    /// `STANDARD[:CLASS[:COLOUR]]`; all classes that it fits are printed
     name: String,
     /// Print a JSON array with one object per row
     #[arg(long)]
