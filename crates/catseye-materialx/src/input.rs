@@ -4,7 +4,7 @@ use catseye::{ParamError, Params};
 
 use crate::{
     element::Element,
-    error::{Error, listed, quoted},
+    error::{Error, listed, plain, quoted},
     graph::{Feed, Graph, NodeRef},
     nodedef::{Accepts, InputDef, InputDefault},
     pattern::{signature, signatures},
@@ -72,7 +72,7 @@ fn unfitting(element: &Element, definition: &crate::library::Definition<'_>, cou
     for input in element.children_of_kind("input") {
         let Some(name) = input.name() else { continue };
         let Some(defined) = definition.input(name) else {
-            let known = listed(definition.inputs().filter_map(Element::name));
+            let known = listed(definition.inputs().filter_map(Element::name).map(plain));
             let category = element.tag().to_owned();
             return Error::UnknownInput { at: element.place_of(input), category, known };
         };

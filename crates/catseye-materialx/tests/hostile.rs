@@ -41,6 +41,22 @@ fn entities_are_refused_before_they_are_expanded() {
     assert_refused(file, ":2:1: document type declarations are refused; remove <!DOCTYPE ...>");
 }
 
+/// Found by fuzzing.
+#[test]
+fn names_of_the_document_in_messages_are_printable_and_short() {
+    let long = "n".repeat(4_000);
+    let inputs = repeated(100, |i| format!("<input name='{i}\u{7f}{long}' type='float'/>"));
+    let text = format!(
+        "<materialx version='1.39'><nodedef name='ND' node='mine'>{inputs}<output name='out' type='surfaceshader'/></nodedef>\
+         <mine name='a' type='surfaceshader'><input name='other' type='float' value='1'/></mine>\
+         <surfacematerial name='m' type='material'><input name='surfaceshader' type='surfaceshader' nodename='a'/>\
+         </surfacematerial></materialx>"
+    );
+    let message = read(text.as_bytes()).expect_err("no such input").to_string();
+    assert!(message.contains("no such input; mine has 0\\u{7f}nnn"), "{message}");
+    assert!(message.len() < 2000 && !message.contains(char::is_control), "{message}");
+}
+
 #[test]
 fn nesting_is_bounded() {
     for count in [33, 10_000, 200_000] {
