@@ -1,6 +1,6 @@
 //! Any bytes can be checked; a document without problems can be read.
 //!
-//! `cargo +nightly fuzz run check -- -max_len=65536 -rss_limit_mb=1024 -timeout=10`
+//! CONTRIBUTING.md has the command.
 
 #![no_main]
 

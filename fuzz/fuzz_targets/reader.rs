@@ -1,6 +1,6 @@
 //! Any bytes either read as materials that can be evaluated, or give an error of one line.
 //!
-//! `cargo +nightly fuzz run reader -- -max_len=65536 -rss_limit_mb=1024 -timeout=10`
+//! CONTRIBUTING.md has the command.
 
 #![no_main]
 

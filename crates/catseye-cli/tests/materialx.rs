@@ -115,3 +115,28 @@ fn the_environment_is_integrated() {
 fn pictures_match_ours() {
     run("test_pictures.py");
 }
+
+#[test]
+fn what_is_missing_fails_where_everything_is_required() {
+    let Some(python) = python() else {
+        return skipped("no virtual environment with MaterialX could be made");
+    };
+    let files = [
+        ("test_generate.py", "Generate.test_glsl_compiles"),
+        ("test_values.py", "Values"),
+        ("test_environment.py", "Environment"),
+        ("test_pictures.py", "Pictures"),
+    ];
+    for (file, case) in files {
+        for (required, good) in [("all", false), ("", true)] {
+            // No programs, no display, no command under test.
+            let mut command = Command::new(&python);
+            command.args(["-B", file, case]).current_dir(tests()).env_clear();
+            command.env("PATH", "").env("CATSEYE_REQUIRE", required);
+            let output = command.output().unwrap();
+            let text = String::from_utf8_lossy(&output.stderr);
+            assert_eq!(output.status.success(), good, "{file}, CATSEYE_REQUIRE={required}: {text}");
+            assert!(text.contains(if good { "skipped=" } else { "AssertionError" }), "{file}: {text}");
+        }
+    }
+}

@@ -63,8 +63,14 @@ fn check_root(
     let mut problems = includer.problems();
     let (graph, duplicates) = Graph::with_problems(&root, library);
     problems.extend(duplicates);
-    let mut checker =
-        Checker { graph: &graph, library, problems, edges: HashMap::new(), seen: HashSet::new() };
+    let mut checker = Checker {
+        graph: &graph,
+        library,
+        problems,
+        edges: HashMap::new(),
+        seen: HashSet::new(),
+        entered: HashSet::new(),
+    };
     checker.scope(&root, ROOT, 0);
     checker.cycles();
     let mut problems = checker.problems;
@@ -93,6 +99,8 @@ struct Checker<'a, 'g> {
     edges: HashMap<Key, (NodeRef<'a>, Vec<NodeRef<'a>>)>,
     /// Pictures that were looked at.
     seen: HashSet<(String, bool)>,
+    /// Graphs of the document's own definitions that were looked at.
+    entered: HashSet<*const Element>,
 }
 
 impl<'a> Checker<'a, '_> {
@@ -131,7 +139,7 @@ impl<'a> Checker<'a, '_> {
         // Elements are nested no deeper than this: the parser has seen to it.
         let _ = depth;
         let node = NodeRef { element: graph, scope: around };
-        // A graph that defines a node has its interface from the definition, which its users check.
+        // A graph that defines a node has its interface from the node that uses it, and is checked there.
         if graph.attribute("nodedef").is_some() {
             return;
         }
@@ -264,7 +272,22 @@ impl<'a> Checker<'a, '_> {
                 Err(problem) => self.problems.push(problem),
             }
         }
+        if let Some(graph) = definition.graph {
+            self.definition(graph, node);
+        }
         feeds
+    }
+
+    /// Checks the graph behind a node where the document brings it: once, with the inputs of the first node that uses it.
+    fn definition(&mut self, graph: &'a Element, node: NodeRef<'a>) {
+        let own = self.graph.element(ROOT).children().as_ptr_range();
+        if !own.contains(&ptr::from_ref(graph)) || !self.entered.insert(graph) {
+            return;
+        }
+        match self.graph.enter(graph, node, true) {
+            Ok(inner) => self.scope(graph, inner, 0),
+            Err(problem) => self.problems.push(problem),
+        }
     }
 
     fn defined_input(

@@ -302,20 +302,33 @@ const LONGEST: usize = 60;
 
 /// The text in quotes, on one line and short enough for a message, whatever it contains.
 pub(crate) fn quoted(text: &str) -> String {
-    match text.char_indices().nth(LONGEST) {
-        None => format!("{text:?}"),
-        Some((end, _)) => format!("{:?}...", &text[..end]),
-    }
+    let (start, rest) = cut(text, LONGEST);
+    format!("{start:?}{rest}")
+}
+
+/// A document's name without the quotes, likewise.
+pub(crate) fn plain(name: &str) -> String {
+    let (start, rest) = cut(name, LONGEST);
+    format!("{}{rest}", start.escape_debug())
 }
 
 /// The XML parser's words on one line, the long names of a hostile document cut short.
 pub(crate) fn one_line(text: &str) -> String {
     let printable = |c: char| if c.is_control() { c.escape_default().to_string() } else { c.to_string() };
-    let mut line: String = text.chars().take(3 * LONGEST).map(printable).collect();
-    if text.chars().nth(3 * LONGEST).is_some() {
-        line += "...";
+    let (start, rest) = cut(text, 3 * LONGEST);
+    start.chars().map(printable).collect::<String>() + rest
+}
+
+/// The start of a text that takes at most so many characters once it is escaped, and what stands for the rest.
+fn cut(text: &str, longest: usize) -> (&str, &'static str) {
+    let mut length = 0;
+    for (end, c) in text.char_indices() {
+        length += c.escape_debug().count();
+        if length > longest {
+            return (&text[..end], "...");
+        }
     }
-    line
+    (text, "")
 }
 
 /// Names for a message, in the given order: at most 20, then how many more there are.

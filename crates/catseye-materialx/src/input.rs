@@ -4,7 +4,7 @@ use catseye::{ParamError, Params};
 
 use crate::{
     element::Element,
-    error::{Error, listed, quoted},
+    error::{Error, listed, plain, quoted},
     graph::{Feed, Graph, NodeRef},
     nodedef::{Accepts, InputDef, InputDefault},
     pattern::{signature, signatures},
@@ -67,13 +67,13 @@ fn unfitting(element: &Element, definition: &crate::library::Definition<'_>, cou
     let expected = definition.output_type().unwrap_or_default();
     let found = element.attribute("type").unwrap_or_default();
     if count == 1 && expected != found {
-        return Error::WrongType { at: element.place(), found: quoted(found), expected: expected.to_owned() };
+        return Error::WrongType { at: element.place(), found: quoted(found), expected: plain(expected) };
     }
     for input in element.children_of_kind("input") {
         let Some(name) = input.name() else { continue };
         let Some(defined) = definition.input(name) else {
-            let known = listed(definition.inputs().filter_map(Element::name));
-            let category = element.tag().to_owned();
+            let known = listed(definition.inputs().filter_map(Element::name).map(plain));
+            let category = plain(element.tag());
             return Error::UnknownInput { at: element.place_of(input), category, known };
         };
         let (expected, found) = (defined.attribute("type"), input.attribute("type"));
@@ -81,7 +81,7 @@ fn unfitting(element: &Element, definition: &crate::library::Definition<'_>, cou
             return Error::WrongType {
                 at: element.place_of(input),
                 found: quoted(found.unwrap_or_default()),
-                expected: expected.unwrap_or_default().to_owned(),
+                expected: plain(expected.unwrap_or_default()),
             };
         }
     }

@@ -53,6 +53,26 @@ fn all_problems_at_once() {
     assert_eq!(lines.len(), expected.len(), "{}", lines.join("\n"));
 }
 
+/// Found by fuzzing: only reading the material told.
+#[test]
+fn graphs_of_the_documents_own_definitions_are_checked_where_they_are_used() {
+    let text = r#"<materialx version="1.39">
+<nodedef name="ND_mine" node="mine"><output name="out" type="surfaceshader" /></nodedef>
+<nodegraph name="NG_mine" nodedef="ND_mine"><unheard_of name="u" type="surfaceshader" />
+<output name="out" type="surfaceshader" nodename="u" /></nodegraph>
+<mine name="a" type="surfaceshader" />
+<mine name="b" type="surfaceshader" />
+</materialx>"#;
+    let problems = check_bytes(text.as_bytes(), "f.mtlx", &Library::default());
+    let lines: Vec<String> = problems.iter().map(ToString::to_string).collect();
+    assert_eq!(lines.len(), 1, "{}", lines.join("\n"));
+    assert!(
+        lines[0].starts_with("f.mtlx:3:45: ") && lines[0].contains("unknown node category"),
+        "{}",
+        lines[0]
+    );
+}
+
 #[test]
 fn our_own_materials_are_without_problems() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/../../materials");

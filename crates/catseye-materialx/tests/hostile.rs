@@ -41,6 +41,31 @@ fn entities_are_refused_before_they_are_expanded() {
     assert_refused(file, ":2:1: document type declarations are refused; remove <!DOCTYPE ...>");
 }
 
+/// Found by fuzzing.
+#[test]
+fn names_of_the_document_in_messages_are_printable_and_short() {
+    let long = format!("\u{7f}{}", "n".repeat(4_000));
+    let inputs = repeated(100, |i| format!("<input name='{i}{long}' type='{long}'/>"));
+    let text = |output: &str, input: &str| {
+        format!(
+            "<materialx version='1.39'><nodedef name='ND' node='mine'><output name='out' type='{output}'/>\
+             <input name='known' type='{long}'/>{inputs}</nodedef>\
+             <mine name='a' type='surfaceshader'><input name='{input}' type='float' value='1'/></mine>\
+             <surfacematerial name='m' type='material'><input name='surfaceshader' type='surfaceshader' nodename='a'/>\
+             </surfacematerial></materialx>"
+        )
+    };
+    for (output, input, expected) in [
+        ("surfaceshader", "other", "no such input; mine has known, 0\\u{7f}nnn"),
+        ("surfaceshader", "known", "is of type \"float\"; \\u{7f}nnn"),
+        (&long, "known", "is of type \"surfaceshader\"; \\u{7f}nnn"),
+    ] {
+        let message = read(text(output, input).as_bytes()).expect_err(expected).to_string();
+        assert!(message.contains(expected), "{message}");
+        assert!(message.len() < 2000 && !message.contains(char::is_control), "{message}");
+    }
+}
+
 #[test]
 fn nesting_is_bounded() {
     for count in [33, 10_000, 200_000] {

@@ -2,7 +2,13 @@
 
     python render_osl.py SHADER.osl PIXELS SAMPLES OUTPUT.exr
 
-Needs the PyPI package bpy, and its Python's site-packages on PYTHONPATH.
+Needs the PyPI package bpy (5.0.1: Python 3.11, 1 GB), and the site-packages within it on PYTHONPATH. The numbers of
+docs/materialx.md, the other commands with the tests' Python:
+
+    python write_osl.py MATERIAL.mtlx sphere.osl
+    python render_osl.py sphere.osl 256 64 theirs.exr
+    cargo run --release -p catseye-render --example direct_sphere -- MATERIAL.mtlx 256 ours.exr
+    python compare_sphere.py theirs.exr ours.exr
 """
 
 import math

@@ -74,6 +74,15 @@ class Generate(unittest.TestCase):
             count += 1
         report(f"spirv-val accepts {count} stages of vk and wgsl")
 
+    def test_metal_has_the_right_types(self):
+        import metal
+        self.assertIn("no matching function", metal.errors("using namespace metal; float f(float3 x) { return dot(x, x.xy); }"))
+        count = 0
+        for name, stage, _, source in self.each("msl"):
+            self.assertEqual(metal.errors(source), "", f"{name} {stage}")
+            count += 1
+        report(f"clang accepts {count} stages of msl")
+
     def test_naga_translates_to_wgsl(self):
         naga = tool(self, "naga")
         count = 0
