@@ -67,8 +67,7 @@ pub fn to_mtlx(sheeting: &Sheeting, text: &MaterialText<'_>) -> String {
     document.close("nodegraph");
     let surface = format!("{name}_surface");
     document.open("surface", &[("name", &surface), ("type", "surfaceshader")]);
-    document
-        .leaf("input", &[("name", "bsdf"), ("type", "BSDF"), ("nodegraph", &graph), ("output", "out")]);
+    document.leaf("input", &[("name", "bsdf"), ("type", "BSDF"), ("nodegraph", &graph), ("output", "out")]);
     document.close("surface");
     document.open("surfacematerial", &[("name", &name), ("type", "material"), ("doc", text.doc)]);
     document.leaf("input", &[("name", "surfaceshader"), ("type", "surfaceshader"), ("nodename", &surface)]);

@@ -4,7 +4,8 @@ use catseye::Model;
 use catseye_photometry::fit::{Aim, FitError, FitOptions, Observation, fit};
 use catseye_photometry::standards::Catalogue;
 use catseye_photometry::{
-    Apertures, Colour, EntranceFactor, EntranceForm, Geometry, Goniometer, Limit, Quantity, RetroLobe, Sheeting,
+    Apertures, Colour, EntranceFactor, EntranceForm, Geometry, Goniometer, Limit, Quantity, RetroLobe,
+    Sheeting,
 };
 
 /// The values that a sheeting has at some angles.
@@ -102,7 +103,8 @@ fn standards_are_met_within_5_percent_or_it_is_said_why_not() {
         let has = |limit| class.rows().iter().any(|row| row.limit == limit);
         let wanted = if has(Limit::Typical) { Limit::Typical } else { Limit::Minimum };
         let rows = class.rows().iter().filter(|row| row.limit == wanted);
-        let rows: Result<Vec<_>, _> = rows.map(|row| Observation::from_row(row, Aim::Equal, Some(0.01))).collect();
+        let rows: Result<Vec<_>, _> =
+            rows.map(|row| Observation::from_row(row, Aim::Equal, Some(0.01))).collect();
         let colour = Colour::named(&class.rows()[0].colour).unwrap();
         let options = FitOptions { channel_peak: colour.peak(), ..FitOptions::default() };
         match fit(&rows.unwrap(), &options) {
@@ -112,7 +114,12 @@ fn standards_are_met_within_5_percent_or_it_is_said_why_not() {
                 fitted += 1;
                 assert!(found.sheeting.albedo_bound() * colour.peak() <= 1.0 + 1e-6, "{}", class.id());
                 if !found.acceptable {
-                    assert!(found.shape.is_some(), "{}: {:.3} off and no reason why", class.id(), found.worst);
+                    assert!(
+                        found.shape.is_some(),
+                        "{}: {:.3} off and no reason why",
+                        class.id(),
+                        found.worst
+                    );
                     unmet.push((class.id().to_owned(), found.worst));
                 }
             }
@@ -129,7 +136,8 @@ fn standards_are_met_within_5_percent_or_it_is_said_why_not() {
 fn minima_can_be_met_as_limits() {
     let class = Catalogue::embedded().unwrap().find("iso20471").unwrap().clone();
     let rows = class.rows().iter().map(|row| Observation::from_row(row, Aim::AtLeast, None).unwrap());
-    let found = fit(&rows.collect::<Vec<_>>(), &FitOptions { tolerance: 1e-2, ..FitOptions::default() }).unwrap();
+    let found =
+        fit(&rows.collect::<Vec<_>>(), &FitOptions { tolerance: 1e-2, ..FitOptions::default() }).unwrap();
     assert!(found.acceptable, "{}", found.worst);
     assert!(found.ratios.iter().all(|&ratio| (0.99..2.0).contains(&ratio)), "{:?}", found.ratios);
 }
@@ -151,7 +159,11 @@ fn what_data_leave_open_is_said() {
     let three_lobes = FitOptions { lobes: Some(3), ..FitOptions::default() };
     let found = fit(&one_entrance, &three_lobes).unwrap();
     assert!(found.estimates.iter().any(|estimate| !estimate.determined), "{:?}", found.estimates);
-    assert!(found.warnings.iter().any(|warning| warning.contains("can't determine 6 numbers")), "{:?}", found.warnings);
+    assert!(
+        found.warnings.iter().any(|warning| warning.contains("can't determine 6 numbers")),
+        "{:?}",
+        found.warnings
+    );
 }
 
 #[test]

@@ -30,9 +30,11 @@ impl Outcome<'_> {
         let (rows, worst, rms) = (self.observations.len(), percent(self.fit.worst), percent(self.fit.rms));
         let word = if self.fit.acceptable { "accepted" } else { "not accepted" };
         let tolerance = percent(self.tolerance);
-        let limits = self.observations.iter().zip(&self.fit.ratios).filter(|(row, _)| row.aim == Aim::AtLeast);
+        let limits =
+            self.observations.iter().zip(&self.fit.ratios).filter(|(row, _)| row.aim == Aim::AtLeast);
         let spare = limits.map(|(_, ratio)| ratio - 1.0).reduce(f64::max);
-        let spare = spare.map_or(String::new(), |spare| format!(", minima exceeded by at most {}", percent(spare)));
+        let spare =
+            spare.map_or(String::new(), |spare| format!(", minima exceeded by at most {}", percent(spare)));
         format!("{word}: worst of {rows} values {worst} off, rms {rms}, tolerance {tolerance}{spare}")
     }
 
@@ -121,7 +123,10 @@ impl Outcome<'_> {
         if self.subject.rows.is_empty() {
             return;
         }
-        let _ = writeln!(text, "\nobservation   entrance   rotation  quantity        value        model   model/value");
+        let _ = writeln!(
+            text,
+            "\nobservation   entrance   rotation  quantity        value        model   model/value"
+        );
         for (row, ratio) in self.subject.rows.iter().zip(&self.fit.ratios) {
             let value = row.value_as_written().unwrap_or(f64::NAN);
             let _ = writeln!(

@@ -63,7 +63,9 @@ impl Subject {
         let (name, mut remarks) = (brdf.name.clone(), brdf.remarks.clone());
         let skipped = brdf.skipped.invalid + brdf.skipped.below_horizon;
         if skipped > 0 {
-            remarks.push(format!("{skipped} samples are negative, not finite or below the surface, and left out"));
+            remarks.push(format!(
+                "{skipped} samples are negative, not finite or below the surface, and left out"
+            ));
         }
         Ok(Self { title: String::new(), name, rows: Vec::new(), brdf: Some(brdf), roughness: None, remarks })
     }
@@ -76,7 +78,12 @@ impl Subject {
             .cloned()
             .collect();
         let Some(first) = rows.first() else {
-            bail!("{}: no row is of {:?}; there are: {}", table.name(), only.unwrap_or_default(), titles(table.rows()));
+            bail!(
+                "{}: no row is of {:?}; there are: {}",
+                table.name(),
+                only.unwrap_or_default(),
+                titles(table.rows())
+            );
         };
         // A standard's class may come from several of its editions: the catalogue has joined them.
         let is_class = |row: &Row| (&row.class, &row.colour) == (&first.class, &first.colour);

@@ -4,9 +4,9 @@ use std::path::{Path, PathBuf};
 
 use anyhow::bail;
 use catseye::Model;
+use catseye_photometry::brdf::Cosine;
 use catseye_photometry::fit::{EntranceKind, Fit, FitOptions, Observation, fit};
 use catseye_photometry::half_power::roughness_from_half_power_angle;
-use catseye_photometry::brdf::Cosine;
 use catseye_photometry::{Apertures, Colour, MaterialText, Quantity, to_mtlx};
 use clap::ValueEnum;
 
@@ -136,8 +136,9 @@ impl Args {
         let html = self.report.as_deref().map(Output::new).transpose()?;
         let name = |error| anyhow::Error::from(error).context(subject.name.clone());
         let found = fit(&observations, &options).map_err(name)?;
-        let beside = (options.model != Model::BackVector)
-            .then(|| fit(&observations, &FitOptions { model: Model::BackVector, roughness: None, ..options }));
+        let beside = (options.model != Model::BackVector).then(|| {
+            fit(&observations, &FitOptions { model: Model::BackVector, roughness: None, ..options })
+        });
         let beside: Option<Fit> = beside.and_then(Result::ok);
         let outcome = Outcome {
             subject: &subject,
@@ -224,7 +225,8 @@ impl Args {
         let command = command_line(std::env::args().skip(1));
         let doc = format!("Fitted to {title} by catseye {command}: {}.", outcome.verdict());
         let sources = subject.sources().join("; ");
-        let source = if sources.is_empty() { String::new() } else { format!(" Source of the values: {sources}") };
+        let source =
+            if sources.is_empty() { String::new() } else { format!(" Source of the values: {sources}") };
         let comment = format!("Written by catseye fit.{source}");
         to_mtlx(&outcome.fit.sheeting, &MaterialText { name: &name, doc: &doc, comment: &comment, colour })
     }

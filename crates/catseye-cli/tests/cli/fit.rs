@@ -95,7 +95,11 @@ fn a_bad_table_is_refused_with_its_place_and_nothing_is_written() {
     ];
     for (rows, expected, code) in cases {
         let bench = Bench::new();
-        let text = if rows.is_empty() || rows.starts_with("obs") { rows.to_owned() } else { format!("{header}{rows}") };
+        let text = if rows.is_empty() || rows.starts_with("obs") {
+            rows.to_owned()
+        } else {
+            format!("{header}{rows}")
+        };
         bench.write("t.csv", &text);
         let fit = bench.catseye("fit t.csv -o t.mtlx", "");
         assert_eq!(fit.code, code, "{rows}: {}{}", fit.stdout, fit.stderr);
@@ -141,7 +145,11 @@ fn a_file_of_several_materials_is_fitted_one_at_a_time() {
     assert!(both.code == 1 && both.stderr.contains("A red; A white"), "{}", both.stderr);
     let red = bench.catseye("fit two.csv --only red -o red.mtlx", "");
     assert_eq!((red.code, red.stderr.as_str()), (0, ""));
-    assert!(fs::read_to_string(bench.path("red.mtlx")).unwrap().contains("Fitted to A red by catseye fit two.csv --only red"));
+    assert!(
+        fs::read_to_string(bench.path("red.mtlx"))
+            .unwrap()
+            .contains("Fitted to A red by catseye fit two.csv --only red")
+    );
 }
 
 /// The fitted materials: path, and the command that their `doc` names.

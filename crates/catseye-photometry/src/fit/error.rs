@@ -79,9 +79,19 @@ pub(super) fn check(observations: &[Observation], options: &FitOptions) -> Resul
     option("the roughness", roughness, "(0, inf)", roughness > 0.0 && roughness <= widest)?;
     let ior = options.coat_ior.unwrap_or(1.5);
     option("the coat's index of refraction", ior, "(1, 4]", ior > 1.0 && ior <= 4.0)?;
-    option("the tolerance", options.tolerance, "(0, 1]", options.tolerance > 0.0 && options.tolerance <= 1.0)?;
+    option(
+        "the tolerance",
+        options.tolerance,
+        "(0, 1]",
+        options.tolerance > 0.0 && options.tolerance <= 1.0,
+    )?;
     let peak = options.channel_peak;
-    option("a colour's greatest channel over its luminance", peak, "[1, inf)", peak >= 1.0 && peak.is_finite())?;
+    option(
+        "a colour's greatest channel over its luminance",
+        peak,
+        "[1, inf)",
+        peak >= 1.0 && peak.is_finite(),
+    )?;
     if options.roughness.is_some() && lobes > 1 {
         return Err(FitError::RoughnessOfMany { lobes });
     }

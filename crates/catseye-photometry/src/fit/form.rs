@@ -166,9 +166,8 @@ impl Form {
 
     /// The sheeting that a vector describes.
     pub(crate) fn sheeting(&self, unknowns: &[Unknown], x: &[f64]) -> Sheeting {
-        let find = |wanted: Meaning| {
-            unknowns.iter().position(|unknown| unknown.meaning == wanted).map(|i| x[i])
-        };
+        let find =
+            |wanted: Meaning| unknowns.iter().position(|unknown| unknown.meaning == wanted).map(|i| x[i]);
         let entrance = |lobe: usize| {
             let owner = (!self.shared).then_some(lobe);
             let position = find(Meaning::Position(owner)).zip(find(Meaning::Steepness(owner)));

@@ -65,7 +65,9 @@ impl Observation {
         let spread = |view: &View| {
             let factor = view.factor;
             let directions = apertures.directions(view.wo, view.wi);
-            directions.map(move |(wo, wi, weight)| View { wo, wi, factor: factor * weight }).collect::<Vec<_>>()
+            directions
+                .map(move |(wo, wi, weight)| View { wo, wi, factor: factor * weight })
+                .collect::<Vec<_>>()
         };
         Self { views: self.views.iter().flat_map(spread).collect(), ..self.clone() }
     }

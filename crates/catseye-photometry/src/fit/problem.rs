@@ -79,7 +79,8 @@ impl<'a> Problem<'a> {
     pub(crate) fn log_jacobian(&self) -> Option<DMatrix<f64>> {
         let sheeting = self.sheeting();
         let lobes = sheeting.lobes.iter().enumerate();
-        let lobes: Vec<_> = lobes.map(|(i, lobe)| self.unit_lobes(i, lobe.roughness)).collect::<Option<_>>()?;
+        let lobes: Vec<_> =
+            lobes.map(|(i, lobe)| self.unit_lobes(i, lobe.roughness)).collect::<Option<_>>()?;
         let mut jacobian = DMatrix::zeros(self.observations.len(), self.unknowns.len());
         let mut row = vec![0.0; self.unknowns.len()];
         for (j, observation) in self.observations.iter().enumerate() {

@@ -26,9 +26,11 @@ impl Span {
         // An aperture's views surround the direction that is meant.
         let centre = |observation: &Observation| {
             let mean = |of: fn(&super::View) -> Vec3<f64>| {
-                let sum = observation.views.iter().map(of).fold(Vec3::default(), |a: Vec3<f64>, b| {
-                    Vec3::new(a.x + b.x, a.y + b.y, a.z + b.z)
-                });
+                let sum = observation
+                    .views
+                    .iter()
+                    .map(of)
+                    .fold(Vec3::default(), |a: Vec3<f64>, b| Vec3::new(a.x + b.x, a.y + b.y, a.z + b.z));
                 sum.normalized()
             };
             (mean(|view| view.wo), mean(|view| view.wi))
@@ -77,7 +79,8 @@ impl Span {
         }
         if !options.diffuse {
             warnings.push(
-                "no luminance factor is given: the material has no diffuse base and is black by day".to_owned(),
+                "no luminance factor is given: the material has no diffuse base and is black by day"
+                    .to_owned(),
             );
         }
         warnings
@@ -140,7 +143,9 @@ pub(crate) fn choose(
     let mut trials = Vec::new();
     let mut best: Option<Solution> = None;
     for form in span.forms(options) {
-        let Some(found) = solve(form, observations, options.channel_peak, options.tolerance) else { continue };
+        let Some(found) = solve(form, observations, options.channel_peak, options.tolerance) else {
+            continue;
+        };
         let (unknowns, worst, rms) = (found.unknowns(), found.worst, found.rms);
         trials.push(Trial { form, unknowns, worst, rms });
         let done = judged == Judged::ByWorst && is_acceptable(&found, rows, options.tolerance);

@@ -34,7 +34,9 @@ impl Estimate {
         let (name, value) = (self.meaning.name(), self.value);
         let [low, high] = self.interval;
         if !self.determined {
-            return Some(format!("the data don't determine {name}: {value:.4} could be {low:.2} to {high:.2}"));
+            return Some(format!(
+                "the data don't determine {name}: {value:.4} could be {low:.2} to {high:.2}"
+            ));
         }
         self.at_bound.then(|| format!("{name} is {value:.4}, the end of the range that is looked in"))
     }
@@ -53,7 +55,8 @@ pub(super) fn estimates(
     let spare = observations.len().saturating_sub(unknowns.len()).max(1) as f64;
     let scatter = solution.rms * (observations.len() as f64 / spare).sqrt();
     let sigma = options.tolerance.max(scatter);
-    let jacobian = problem.log_jacobian().unwrap_or_else(|| DMatrix::zeros(observations.len(), unknowns.len()));
+    let jacobian =
+        problem.log_jacobian().unwrap_or_else(|| DMatrix::zeros(observations.len(), unknowns.len()));
     let mut precision = jacobian.transpose() * &jacobian / (sigma * sigma);
     for (k, unknown) in unknowns.iter().enumerate() {
         precision[(k, k)] += unknown.prior[1].powi(-2);
