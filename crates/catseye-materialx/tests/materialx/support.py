@@ -115,10 +115,11 @@ def stages(shader):
 def complete(source):
     """Without an environment MaterialX 1.39.5 does not declare u_refractionTwoSided, which its own refraction uses."""
     name = "u_refractionTwoSided"
-    if not source.startswith("#version") or name not in source or re.search(rf"\w+ {name}( =|;)", source):
+    if name not in source or re.search(rf"\w+ {name}( =|;)", source):
         return source
-    version, rest = source.split("\n", 1)
-    return f"{version}\nconst bool {name} = false;\n{rest}"
+    # GLSL's version must stay the first line; Slang has none, and wants its constants static.
+    version, rest = re.fullmatch(r"(#version[^\n]*\n|)(.*)", source, re.DOTALL).groups()
+    return f"{version}{'' if version else 'static '}const bool {name} = false;\n{rest}"
 
 
 def tool(case, name):
