@@ -79,7 +79,7 @@ impl<'a> Graph<'a> {
         let document = Scope { element: root, interface: None, defined: false, depth: 0 };
         let mut graph = Self {
             root,
-            definitions: Definitions::new(library.roots().iter().chain([root])),
+            definitions: Definitions::new(library.roots().chain([root])),
             names: HashMap::new(),
             scopes: RefCell::new(vec![document]),
             known_scopes: RefCell::default(),
