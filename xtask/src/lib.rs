@@ -38,7 +38,7 @@ enum Chore {
     Golden(Mode),
     /// Write the compact albedo fit's table into the shading languages
     Shaders(Mode),
-    /// Render the pictures of README.md into docs/
+    /// Render the pictures of README.md and docs/
     Readme,
 }
 

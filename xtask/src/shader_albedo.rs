@@ -27,7 +27,7 @@ const OSL_TAIL: &str = include_str!("shader_albedo/tail.osl");
 /// MaterialX's generators could write.
 fn glsl() -> Result<String> {
     let mut out = format!("{GLSL_HEAD}\n");
-    writeln!(out, "const float RETRO_REFLECTIVE_ALBEDO_KAPPA = {COMPACT_KAPPA:?};\n")?;
+    writeln!(out, "#define RETRO_REFLECTIVE_ALBEDO_KAPPA {COMPACT_KAPPA:?}\n")?;
     writeln!(out, "// The sums of both for a ratio of 1, where every T_b is 1 and w is 0.")?;
     writeln!(
         out,

@@ -18,6 +18,8 @@ pub(crate) const FILES: &[(&str, &str)] = &[
     file!("genglsl/lib/mx_retro_reflective.glsl"),
     file!("genglsl/lib/mx_retro_reflective_albedo.glsl"),
     file!("genglsl/lib/mx_retro_reflective_environment.glsl"),
+    file!("genglsl/lib/mx_retro_reflective_environment_fis.glsl"),
+    file!("genglsl/lib/mx_retro_reflective_environment_lookup.glsl"),
     file!("genglsl/mx_retro_reflective_bsdf.glsl"),
     file!("genmdl/catseye/catseye.mdl"),
     file!("genmdl/catseye_genmdl_impl.mtlx"),

@@ -128,7 +128,7 @@ Example:
 pub(crate) const MATERIALX: &str = "\
 Example:
   $ catseye materialx export libraries
-  wrote libraries/catseye (13 files)";
+  wrote libraries/catseye (15 files)";
 
 /// Example of `catseye materialx export`.
 pub(crate) const MATERIALX_EXPORT: &str = MATERIALX;

@@ -127,9 +127,10 @@ impl<'a> Checker<'a, '_> {
                 // The nodegraph's own, which may be connected to what is around it; checked there.
                 "input" => {}
                 "look" => self.look(child),
-                "nodedef" | "implementation" | "typedef" | "targetdef" | "unitdef" | "unittypedef"
-                | "geompropdef" | "geominfo" | "lookgroup" | "collection" | "propertyset" | "variantset"
-                | "backdrop" | "attributedef" | "xi:include" => {}
+                "nodedef" => self.nodedef(child),
+                "implementation" | "typedef" | "targetdef" | "unitdef" | "unittypedef" | "geompropdef"
+                | "geominfo" | "lookgroup" | "collection" | "propertyset" | "variantset" | "backdrop"
+                | "attributedef" | "xi:include" => {}
                 _ => self.node(node),
             }
         }
@@ -174,7 +175,7 @@ impl<'a> Checker<'a, '_> {
 
     /// Checks a constant, and the file that it may name.
     fn value(&mut self, feed: Feed<'a>, ty: Type) -> Result<(), Error> {
-        let Feed::Value { owner, input, .. } = feed else { return Ok(()) };
+        let Feed::Value { owner, input } = feed else { return Ok(()) };
         constant(owner, input, ty)?;
         match input.attribute("value") {
             Some(name) if ty == Type::Filename => self.picture(owner, input, name),
@@ -301,10 +302,21 @@ impl<'a> Checker<'a, '_> {
         check_connection(self.graph, node, input, feed, ty)?;
         self.value(feed, ty)?;
         let defined = input.name().and_then(|name| definition.input(name));
-        if let (Some(defined), Feed::Value { owner, input, direct: true }) = (defined, feed) {
+        if let (Some(defined), Feed::Value { owner, input }) = (defined, feed) {
             check_bounds(owner, input, defined, ty)?;
         }
         Ok(feed)
+    }
+
+    /// A definition's defaults must lie within its own bounds.
+    fn nodedef(&mut self, nodedef: &'a Element) {
+        for input in nodedef.children_of_kind("input") {
+            let ty = input.attribute("type").and_then(Type::parse);
+            if let (Some(ty), Some(_)) = (ty, input.attribute("value")) {
+                let result = check_bounds(nodedef, input, input, ty);
+                self.report(result);
+            }
+        }
     }
 
     fn look(&mut self, look: &'a Element) {
@@ -380,7 +392,7 @@ fn check_bounds(owner: &Element, input: &Element, defined: &Element, ty: Type) -
         let above = limit(&high).is_some_and(|high| *x > high);
         if below || above {
             let range = [low, high].map(|b| b.map_or_else(|| "...".to_owned(), |b| b.to_string()));
-            let name = input.name().unwrap_or_default();
+            let name = defined.name().unwrap_or_default();
             let message = format!("{} is {value}, outside [{}] to [{}]", quoted(name), range[0], range[1]);
             return Err(Error::OutOfRange { at: owner.place_of(input), message });
         }

@@ -58,7 +58,7 @@ impl<'a> PatternCompiler<'a> {
     /// The constant that feeds an input.
     pub(crate) fn constant(&self, feed: Feed<'a>, ty: Type) -> Result<Value<'a>, Error> {
         match feed {
-            Feed::Value { owner, input, .. } => constant(owner, input, ty),
+            Feed::Value { owner, input } => constant(owner, input, ty),
             // Callers have looked.
             _ => Ok(Value::Float(0.0)),
         }
@@ -82,7 +82,7 @@ impl<'a> PatternCompiler<'a> {
                 None => Some(Operand::Register(self.lowering.number(0.0, ty.width()))),
             },
             Feed::Node { node, output } => Some(self.pattern(node, output)?),
-            Feed::Value { owner, input, .. } => Some(self.literal(owner, input, ty)?),
+            Feed::Value { owner, input } => Some(self.literal(owner, input, ty)?),
         })
     }
 
@@ -187,7 +187,7 @@ impl<'a> PatternCompiler<'a> {
             return Ok(self.lowering.fallback(parameter.fallback, width));
         };
         let operand = match feed {
-            Feed::Value { owner, input, .. } if ty == Type::Filename => {
+            Feed::Value { owner, input } if ty == Type::Filename => {
                 let space = picture_space(owner, input, child, node_type)?;
                 let name = input.attribute("value").unwrap_or_default();
                 Some(Operand::Texture(self.texture(owner, input, name, space)?))
@@ -339,7 +339,7 @@ fn bind_input<'a>(
     };
     let feed = graph.feed(node, child)?;
     check_connection(graph, node, child, feed, input_type)?;
-    if let Feed::Value { owner, input, .. } = feed {
+    if let Feed::Value { owner, input } = feed {
         constant(owner, input, input_type)?;
     }
     Ok(Some((index, feed, input_type)))

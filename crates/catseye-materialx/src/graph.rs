@@ -48,8 +48,8 @@ struct Scope<'a> {
 pub(crate) enum Feed<'a> {
     /// The definition's default.
     Default,
-    /// The text of `value` in an input, `direct` unless an interface is between. `owner` is the element around it.
-    Value { owner: &'a Element, input: &'a Element, direct: bool },
+    /// The text of `value` in an input. `owner` is the element around it.
+    Value { owner: &'a Element, input: &'a Element },
     /// A node's output, by name where one is given.
     Node { node: NodeRef<'a>, output: Option<&'a str> },
     /// A property of the geometry, by its name.
@@ -79,7 +79,7 @@ impl<'a> Graph<'a> {
         let document = Scope { element: root, interface: None, defined: false, depth: 0 };
         let mut graph = Self {
             root,
-            definitions: Definitions::new(library.roots().iter().chain([root])),
+            definitions: Definitions::new(library.roots().chain([root])),
             names: HashMap::new(),
             scopes: RefCell::new(vec![document]),
             known_scopes: RefCell::default(),
@@ -134,22 +134,18 @@ impl<'a> Graph<'a> {
 
     /// What feeds `input`, which stands in `node`.
     pub(crate) fn feed(&self, node: NodeRef<'a>, input: &'a Element) -> Result<Feed<'a>, Error> {
-        self.feed_at(node, input, true)
-    }
-
-    fn feed_at(&self, node: NodeRef<'a>, input: &'a Element, direct: bool) -> Result<Feed<'a>, Error> {
         /// From input to interface to input, through nodegraphs inside one another.
         const MAX_STEPS: usize = 4 * MAX_SCOPE_DEPTH;
         if self.steps.get() > MAX_STEPS {
             return Err(Error::Cycle { at: node.element.place_of(input), cycle: node.element.quoted_name() });
         }
         self.steps.set(self.steps.get() + 1);
-        let feed = self.follow(node, input, direct);
+        let feed = self.follow(node, input);
         self.steps.set(self.steps.get() - 1);
         feed
     }
 
-    fn follow(&self, node: NodeRef<'a>, input: &'a Element, direct: bool) -> Result<Feed<'a>, Error> {
+    fn follow(&self, node: NodeRef<'a>, input: &'a Element) -> Result<Feed<'a>, Error> {
         if let Some(name) = input.attribute("interfacename") {
             return self.interface(node, input, name);
         }
@@ -166,7 +162,7 @@ impl<'a> Graph<'a> {
             (None, Some(graph)) => self.through_nodegraph(node, graph, output)?,
             (None, None) if output.is_some() => self.output(node.scope, output)?,
             (None, None) if input.attribute("value").is_some() => {
-                return Ok(Feed::Value { owner: node.element, input, direct });
+                return Ok(Feed::Value { owner: node.element, input });
             }
             (None, None) => {
                 return Ok(input.attribute("defaultgeomprop").map_or(Feed::Default, Feed::Geometry));
@@ -185,10 +181,10 @@ impl<'a> Graph<'a> {
         let caller = scope.interface.ok_or_else(dangling)?;
         let given = self.get(caller.element, name).filter(|element| element.tag() == "input");
         if !scope.defined {
-            return self.feed_at(caller, given.ok_or_else(dangling)?, false);
+            return self.feed(caller, given.ok_or_else(dangling)?);
         }
         if let Some(given) = given {
-            match self.feed_at(caller, given, false)? {
+            match self.feed(caller, given)? {
                 Feed::Default => {}
                 feed => return Ok(feed),
             }
@@ -196,7 +192,7 @@ impl<'a> Graph<'a> {
         let definition = self.definitions.find(caller.element).ok_or_else(dangling)?;
         let default = definition.input(name).ok_or_else(dangling)?;
         if default.attribute("value").is_some() {
-            return Ok(Feed::Value { owner: definition.nodedef(), input: default, direct: false });
+            return Ok(Feed::Value { owner: definition.nodedef(), input: default });
         }
         Ok(default.attribute("defaultgeomprop").map_or(Feed::Default, Feed::Geometry))
     }
@@ -299,7 +295,7 @@ impl<'a> Graph<'a> {
             return Ok(target.map(|node| Feed::Node { node, output: output.attribute("output") }));
         }
         if output.attribute("interfacename").is_some() {
-            return self.feed_at(owner, output, false).map(Some);
+            return self.feed(owner, output).map(Some);
         }
         match output.attribute("nodegraph") {
             Some(graph) => self.through_nodegraph(owner, graph, output.attribute("output")),

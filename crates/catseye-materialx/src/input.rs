@@ -126,9 +126,9 @@ pub(crate) fn feed<'a>(
         Feed::Node { .. } if in_document && matches!(input.accepts, Accepts::DefaultOnly) => {
             Err(default_only(node.element, child, input))
         }
-        Feed::Value { owner, input: literal, direct } => {
+        Feed::Value { owner, input: literal } => {
             let value = constant(owner, literal, input.ty())?;
-            if direct && in_document {
+            if in_document {
                 check_range(owner, literal, input, value)?;
             }
             Ok(feed)

@@ -44,6 +44,7 @@
 //! - EDFs: `uniform_edf`, `generalized_schlick_edf`, `mix`, `add`, `multiply`.
 //! - Inputs that vary: some ninety pattern nodes, from `image` to `worleynoise3d`. What of them doesn't depend on the geometry is
 //!   computed once; the rest is a [`Patterns`] program, which [`Material::patterns`] runs at each [`ShadingPoint`].
+//! - `retro_sheeting_surface` of our own data library.
 //! - Nodes that the document or a [`Library`] defines as nodegraphs: `standard_surface`, `open_pbr_surface`, `gltf_pbr` where
 //!   MaterialX's own libraries are on the [`SearchPath`]. In a definition's graph what has no weight is left out, and numbers
 //!   outside their range are brought into it, not refused.

@@ -1,20 +1,35 @@
-//! Node definitions from MaterialX libraries on disk.
+//! Node definitions: our own, and those of MaterialX libraries on disk.
 
 use std::{
     collections::HashMap,
     path::{Path, PathBuf},
+    sync::LazyLock,
 };
 
-use crate::{document::read_root, element::Element, error::Error, files::SearchPath};
+use crate::{
+    document::{parse_bytes, read_root},
+    element::Element,
+    error::Error,
+    files::SearchPath,
+};
 
 /// Files of all libraries together; MaterialX 1.39.5 has 30 that are read here.
 const MAX_FILES: usize = 4096;
 /// Folders inside folders.
 const MAX_DEPTH: usize = 6;
 
+/// The definitions of our own data library that are graphs: `retro_sheeting_surface`. Test `read` reads a document with it.
+static OWN: LazyLock<Vec<Element>> = LazyLock::new(|| {
+    let files = [
+        ("catseye_defs.mtlx", include_str!("../libraries/catseye/catseye_defs.mtlx")),
+        ("catseye_ng.mtlx", include_str!("../libraries/catseye/catseye_ng.mtlx")),
+    ];
+    files.iter().flat_map(|(name, text)| parse_bytes(text.as_bytes(), name, None)).collect()
+});
+
 /// The folders that may be read, and the node definitions in the MaterialX libraries among them.
 ///
-/// A folder of the search path that has a folder `libraries` (as MaterialX and its Python package have), or is one,
+/// The nodes of our own data library are always known. A folder of the search path that has a folder `libraries` (as MaterialX and its Python package have), or is one,
 /// gives its definitions; nodes that are defined as nodegraphs, such as `standard_surface`, are then known.
 #[derive(Debug, Default)]
 pub struct Library {
@@ -23,7 +38,7 @@ pub struct Library {
 }
 
 impl Library {
-    /// Reads the libraries of a search path; without any there are only the nodes that are built in.
+    /// Reads the libraries of a search path; without any there are only our own library and the nodes that are built in.
     ///
     /// # Errors
     /// A folder or a file of a library can't be read.
@@ -52,11 +67,12 @@ impl Library {
     /// How many node definitions there are.
     #[must_use]
     pub fn definitions(&self) -> usize {
-        self.roots.iter().map(|root| root.children_of_kind("nodedef").count()).sum()
+        self.roots().map(|root| root.children_of_kind("nodedef").count()).sum()
     }
 
-    pub(crate) fn roots(&self) -> &[Element] {
-        &self.roots
+    /// The documents with definitions, our own first.
+    pub(crate) fn roots(&self) -> impl Iterator<Item = &Element> + Clone {
+        OWN.iter().chain(&self.roots)
     }
 }
 

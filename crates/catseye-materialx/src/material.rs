@@ -402,7 +402,7 @@ impl<'a> Builder<'a> {
             core::array::from_fn(|i| lanes[i])
         };
         match given.feed {
-            Feed::Value { direct: true, .. } if self.graph.is_in_document(node.node.scope) => {
+            Feed::Value { .. } if self.graph.is_in_document(node.node.scope) => {
                 // In range, or its receiver refuses it.
                 Ok(Slot::Constant(numbers(self.patterns.constant(given.feed, def.ty())?)))
             }

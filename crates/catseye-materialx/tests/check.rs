@@ -23,6 +23,10 @@ const FAULTY: &str = r#"<materialx version="1.39">
 <look name="l"><materialassign name="x" material="none" geom="/" /></look>
 <retro_reflective_bsdf name="r" type="BSDF"><input name="roughness_u" type="float" value="-3" />
 <input name="roughness_v" type="float" value="-1" /><input name="tint" type="color3" value="0, 2, 0" /></retro_reflective_bsdf>
+<nodegraph name="h"><input name="rough" type="float" value="3" />
+<oren_nayar_diffuse_bsdf name="o" type="BSDF"><input name="roughness" type="float" interfacename="rough" /></oren_nayar_diffuse_bsdf>
+<retro_sheeting_surface name="s" type="surfaceshader"><input name="coat" type="float" interfacename="rough" /></retro_sheeting_surface></nodegraph>
+<nodedef name="ND_n" node="n"><input name="x" type="float" value="5" uimax="4" /><output name="out" type="BSDF" /></nodedef>
 </materialx>"#;
 
 #[test]
@@ -45,6 +49,9 @@ fn all_problems_at_once() {
         ("f.mtlx:19:16: ", "material=\"none\", which doesn't exist"),
         ("f.mtlx:20:45: ", "roughness_u is -3, outside [0, inf]"),
         ("f.mtlx:21:53: ", "tint[1] is 2, outside [0, 1]"),
+        ("f.mtlx:22:21: ", "roughness is 3, outside [0, 1]"),
+        ("f.mtlx:22:21: ", "\"coat\" is 3, outside [0] to [1]"),
+        ("f.mtlx:25:31: ", "\"x\" is 5, outside [...] to [4]"),
     ];
     for (place, message) in expected {
         let found = lines.iter().any(|line| line.starts_with(place) && line.contains(message));

@@ -4,6 +4,7 @@ mod support;
 
 use std::sync::Arc;
 
+use catseye::Params;
 use catseye_materialx::{Closure, Document, Library, Material, SearchPath, ShadingPoint};
 use support::{document, single};
 
@@ -211,6 +212,41 @@ fn pictures_are_looked_up_in_their_colour_space() {
     let here = material.patterns.unwrap().at(&ShadingPoint::default());
     let green = ((188.0_f32 / 255.0 + 0.055) / 1.055).powf(2.4);
     assert_near(color_of(&here.bsdf), [1.0, green, 0.0], "flat.png");
+}
+
+/// Retro-reflection and base of `retro_sheeting_surface`.
+fn below_the_coat(bsdf: Closure) -> (Params<f32>, [f32; 3]) {
+    let Closure::Layer { base, .. } = bsdf else { panic!("{bsdf:?}") };
+    let Closure::Add { a, b } = *base else { panic!("{base:?}") };
+    let Closure::RetroReflective { params, .. } = *a else { panic!("{a:?}") };
+    (params, color_of(&b))
+}
+
+#[test]
+fn retro_sheeting_surface_needs_no_search_path_and_takes_pictures() {
+    let folder = tempfile::tempdir().unwrap();
+    let half = image::Rgb([255, 128, 0]);
+    image::RgbImage::from_pixel(4, 4, half).save(folder.path().join("half.png")).unwrap();
+    let text = r#"<materialx version="1.39">
+        <image name="c" type="color3"><input name="file" type="filename" value="half.png" /></image>
+        <extract name="green" type="float"><input name="in" type="color3" nodename="c" /><input name="index" type="integer" value="1" /></extract>
+        <retro_sheeting_surface name="s" type="surfaceshader"><input name="base_color" type="color3" nodename="c" />
+          <input name="retro_color" type="color3" value="1, 0.5, 0.25" /><input name="retro_strength" type="float" nodename="green" />
+          <input name="half_power_angle" type="float" value="2" /></retro_sheeting_surface>
+        <surfacematerial name="m" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s" /></surfacematerial></materialx>"#;
+    let path = folder.path().join("m.mtlx");
+    std::fs::write(&path, text).unwrap();
+    let patterns = Document::load(&path).unwrap().material(None).unwrap().patterns.unwrap();
+    let strength = 128.0_f32 / 255.0;
+    for (view, falloff) in [([0.0, 0.0, -1.0], 1.0), ([0.75_f32.sqrt(), 0.0, -0.5], 0.125)] {
+        let point = ShadingPoint { view, ..ShadingPoint::default() };
+        let (params, base) = below_the_coat(patterns.at(&point).bsdf);
+        let share = [1.0, 0.5, 0.25].map(|color| color * strength * falloff);
+        assert_near(params.tint, share, "tint");
+        assert_near(params.multiscatter_tint, share, "multiscatter_tint");
+        assert_near(base, [1.0 - share[0], strength * (1.0 - share[1]), 0.0], "base");
+        assert!((params.roughness_u - 2.0_f32.to_radians() / (2.0 * 2.0_f32.ln()).sqrt()).abs() < 1e-7);
+    }
 }
 
 #[test]

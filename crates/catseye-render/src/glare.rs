@@ -34,35 +34,34 @@ impl Image {
     fn blurred(&self, sigma: f32) -> Self {
         // A box of 2 r + 1 pixels has the variance r (r + 1) / 3.
         let radius = (0.5 * ((4.0 * sigma * sigma + 1.0).sqrt() - 1.0)).round().max(1.0) as usize;
-        let rows = (0..BOXES).fold(self.clone(), |image, _| image.box_filtered(radius));
-        (0..BOXES).fold(rows.turned(), |image, _| image.box_filtered(radius)).turned()
+        let filtered = |image: Self| (0..BOXES).fold(image, |image, _| image.box_filtered(radius));
+        filtered(filtered(self.turned()).turned())
     }
 
-    /// Each pixel becomes the mean of those up to `radius` beside it in its row.
+    /// Each pixel becomes the mean of those up to `radius` above and below it. Columns are summed side by side: rows
+    /// are read and written from end to end.
     fn box_filtered(&self, radius: usize) -> Self {
+        let (width, height) = (self.width(), self.height());
         let scale = 1.0 / (2 * radius + 1) as f64;
-        let mut filtered = Self::new(self.width(), self.height());
-        for y in 0..self.height() {
-            let mut sum = [0.0_f64; 3];
-            let mut add = |x: usize, sign: f64| {
-                for (sum, value) in sum.iter_mut().zip(self.pixel(x, y)) {
-                    *sum += sign * f64::from(value);
-                }
-                sum
-            };
-            for x in 0..radius.min(self.width()) {
-                add(x, 1.0);
+        let mut sums = vec![[0.0_f64; 3]; width];
+        let add = |sums: &mut [[f64; 3]], y: usize, sign: f64| {
+            let row = &self.pixels()[y * width..][..width];
+            for (sum, value) in sums.as_flattened_mut().iter_mut().zip(row.as_flattened()) {
+                *sum += sign * f64::from(*value);
             }
-            for x in 0..self.width() {
-                if x + radius < self.width() {
-                    add(x + radius, 1.0);
-                }
-                if x > radius {
-                    add(x - radius - 1, -1.0);
-                }
+        };
+        (0..radius.min(height)).for_each(|y| add(&mut sums, y, 1.0));
+        let mut filtered = Self::new(width, height);
+        for (y, row) in filtered.pixels_mut().chunks_exact_mut(width.max(1)).enumerate() {
+            if y + radius < height {
+                add(&mut sums, y + radius, 1.0);
+            }
+            if y > radius {
+                add(&mut sums, y - radius - 1, -1.0);
+            }
+            for (mean, sum) in row.as_flattened_mut().iter_mut().zip(sums.as_flattened()) {
                 // What is left of bright pixels that went out is rounding.
-                let mean = add(x, 0.0).map(|s| (s * scale).max(0.0) as f32);
-                filtered.set_pixel(x, y, mean);
+                *mean = (sum * scale).max(0.0) as f32;
             }
         }
         filtered

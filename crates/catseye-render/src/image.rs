@@ -42,6 +42,10 @@ impl Image {
         &self.pixels
     }
 
+    pub(crate) fn pixels_mut(&mut self) -> &mut [[f32; 3]] {
+        &mut self.pixels
+    }
+
     /// The pixel in column `x` and row `y`.
     ///
     /// # Panics

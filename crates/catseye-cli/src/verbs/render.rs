@@ -1,10 +1,11 @@
 //! `catseye render`: a path-traced picture.
 
-use std::path::PathBuf;
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
 use std::time::Instant;
 
-use anyhow::bail;
-use catseye_materialx::Material;
+use anyhow::{Context as _, bail};
+use catseye_materialx::{Document, Look, Material};
 use catseye_render::{RenderSettings, Scene, ToneMap, render, write_exr, write_png};
 use clap::ValueEnum;
 use serde_json::json;
@@ -24,6 +25,9 @@ const STEPS: f32 = 1000.0;
 /// Without a material: a road at night in the light of two headlamps beside the camera; on the left everything wears
 /// retro-reflective sheeting, on the right the same colours as matte paint. With a material: a sphere and a folded sheet
 /// of it, lit by a headlamp 0.2 degrees beside the camera.
+///
+/// A look assigns materials to the paths /preview/sphere and /preview/sheet, or, with --scene night, to /night/signs,
+/// /night/cones, /night/studs and /night/posts.
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::RENDER)]
 pub(crate) struct Args {
@@ -36,6 +40,9 @@ pub(crate) struct Args {
     /// Name of the surface material, where the document has several
     #[arg(long, value_name = "NAME", requires = "document")]
     material: Option<String>,
+    /// Look of the document, which assigns its materials to the scene's geometry
+    #[arg(long, value_name = "NAME", requires = "document", conflicts_with = "material")]
+    look: Option<String>,
     #[command(flatten)]
     library: LibraryArgs,
     /// Scene to put it in [default: preview with a material, night without]
@@ -107,21 +114,47 @@ impl Args {
     }
 
     fn load_scene(&self) -> anyhow::Result<Scene> {
-        let material = self.load_material()?;
         let model = self.model.0;
-        let scene = match (self.scene, &material) {
-            (Some(SceneArg::Preview), None) => {
+        let scene = match (&self.document, self.scene) {
+            (None, Some(SceneArg::Preview)) => {
                 bail!(Usage("--scene preview needs a MATERIAL.mtlx to show".to_owned()))
             }
-            (Some(SceneArg::Night), _) | (None, None) => Scene::builtin(material.as_ref(), model),
-            (_, Some(material)) => Scene::preview(material, model),
+            (None, _) => Scene::builtin(None, model),
+            (Some(path), Some(SceneArg::Night)) => {
+                let sheeting = self.materials(path, &Scene::BUILTIN_GEOMETRY)?;
+                Scene::builtin_of(std::array::from_fn(|i| sheeting[i].as_ref()), model)
+            }
+            (Some(path), _) => {
+                let materials = self.materials(path, &Scene::PREVIEW_GEOMETRY)?;
+                let [Some(sphere), Some(sheet)] = &materials[..] else {
+                    let geometry = Scene::PREVIEW_GEOMETRY.join(" or ");
+                    bail!("{}: the look assigns nothing to {geometry}", path.display())
+                };
+                Scene::preview_of([sphere, sheet], model)
+            }
         };
         Ok(scene?)
     }
 
-    fn load_material(&self) -> anyhow::Result<Option<Material>> {
-        let Some(path) = &self.document else { return Ok(None) };
-        self.library.material(path, self.material.as_deref()).map(Some)
+    /// The material of each of a scene's parts: the look's, or the same one for all of them.
+    fn materials(&self, path: &Path, geometry: &[&str]) -> anyhow::Result<Vec<Option<Material>>> {
+        let Some(name) = &self.look else {
+            let material = self.library.material(path, self.material.as_deref())?;
+            return Ok(vec![Some(material); geometry.len()]);
+        };
+        let document = Document::load_with(path, &self.library.load()?)?;
+        let look = look(&document, name)?;
+        let material = |path: &&str| look.material(path).map(|name| document.material(Some(name)));
+        let materials: Vec<Option<Material>> =
+            geometry.iter().map(|path| material(path).transpose()).collect::<Result<_, _>>()?;
+        if materials.iter().all(Option::is_none) {
+            bail!("{}: the look assigns nothing to {}", path.display(), geometry.join(", "));
+        }
+        let shown = materials.iter().flatten().flat_map(|material| material.warnings.clone());
+        for warning in document.warnings().into_iter().chain(shown).collect::<BTreeSet<_>>() {
+            eprintln!("catseye: warning: {warning}");
+        }
+        Ok(materials)
     }
 
     /// Columns and rows that are rendered for one of a PNG and averaged behind the tone curve: an edge between sheeting
@@ -150,6 +183,14 @@ impl Args {
         let text = format!("wrote {name} ({width} x {height}, {spp} samples per pixel, {seconds:.1} s)");
         report::print(self.json, &facts, &text)
     }
+}
+
+/// The look of this name.
+fn look(document: &Document, name: &str) -> anyhow::Result<Look> {
+    let looks = document.looks()?;
+    let names: Vec<String> = looks.iter().map(|look| look.name.clone()).collect();
+    let found = looks.into_iter().find(|look| look.name == name);
+    found.with_context(|| format!("{}: no look {name:?}; its looks: {}", document.name(), names.join(", ")))
 }
 
 /// `WxH` as width and height.

@@ -115,3 +115,24 @@ fn wrong_use_has_exit_code_2() {
         assert_eq!((outcome.code, outcome.stdout.as_str()), (2, ""), "{args}");
     }
 }
+
+#[test]
+fn a_look_assigns_materials_to_a_scene_s_geometry() {
+    let bench = Bench::new();
+    let second = r#"<surfacematerial name="belt" type="material"><input name="surfaceshader" type="surfaceshader" nodename="skin" /></surfacematerial>
+        <look name="worn"><materialassign name="a" material="vest" geom="/preview, /night/cones" />
+          <materialassign name="b" material="belt" geom="/preview/sheet" /></look>
+        <look name="bare"><materialassign name="c" material="belt" geom="/car" /></look></materialx>"#;
+    bench.write("worn.mtlx", &DOCUMENT.replace("</materialx>", second));
+    for (args, code, message) in [
+        ("--look worn", 0, ""),
+        ("--look worn --scene night", 0, ""),
+        ("--look bare", 1, "worn.mtlx: the look assigns nothing to /preview/sphere, /preview/sheet"),
+        ("--look none", 1, "worn.mtlx: no look \"none\"; its looks: worn, bare"),
+        ("--look worn --material vest", 2, "cannot be used with"),
+    ] {
+        let outcome = bench.catseye(&format!("render worn.mtlx {SMALL} {args} -o a.png"), "");
+        assert_eq!(outcome.code, code, "{args}: {}", outcome.stderr);
+        assert!(outcome.stderr.contains(message), "{args}: {}", outcome.stderr);
+    }
+}

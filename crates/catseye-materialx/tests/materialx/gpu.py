@@ -33,21 +33,23 @@ REFLECTION, TRANSMISSION, INDIRECT = 1, 2, 3
 
 
 class Gpu:
-    def __init__(self, environment="NONE", defines=()):
+    def __init__(self, environment="NONE"):
         self.context = moderngl.create_standalone_context(backend="egl")
         source = stages(generate(parse(DOCUMENT, data_library()), "glsl", environment))["pixel"]
-        version, source = source[: source.index("void main()")].split("\n", 1)
-        head = "\n".join([version, *(f"#define {name}" for name in defines), source])
+        head = source[: source.index("void main()")]
         self.program = self.context.program(vertex_shader=VERTEX, fragment_shader=head + MAIN)
         self.name = self.context.info["GL_RENDERER"]
 
     def environment(self, radiance, irradiance, samples):
-        """The lat-long maps (rows, columns, 3), and the samples of a look-up."""
-        for unit, (name, image) in enumerate([("u_envRadiance", radiance), ("u_envIrradiance", irradiance)], 1):
+        """The levels of the lat-long maps (rows, columns, 3), those after the last being its mipmaps; samples of a look-up."""
+        for unit, (name, levels) in enumerate([("u_envRadiance", radiance), ("u_envIrradiance", irradiance)], 1):
             if name in self.program:
-                height, width, _ = image.shape
-                texture = self.context.texture((width, height), 3, image.astype(np.float32).tobytes(), dtype="f4")
-                texture.build_mipmaps()
+                height, width, _ = levels[0].shape
+                texture = self.context.texture((width, height), 3, dtype="f4")
+                for level, image in enumerate(levels):
+                    texture.write(image.astype(np.float32).tobytes(), level=level)
+                    if level == 0:
+                        texture.build_mipmaps()
                 texture.filter = (moderngl.LINEAR_MIPMAP_LINEAR, moderngl.LINEAR)
                 texture.use(unit)
                 self.program[name] = unit

@@ -52,8 +52,8 @@ def data_library():
 
 
 def documents():
-    """The workspace's materials, and those that use what its reader does not know yet."""
-    return sorted([*MATERIALS.glob("*.mtlx"), *(HERE / "documents").glob("*.mtlx")])
+    """The workspace's materials."""
+    return sorted(MATERIALS.glob("*.mtlx"))
 
 
 def read(path, library):

@@ -4,9 +4,8 @@ import pathlib
 import tempfile
 import unittest
 
-from support import ENVIRONMENTS, GENERATORS, HARDWARE, data_library, documents, generate, read, report, run, stages, tool
-
-COMPILED = ["glsl", "essl", "vk", "wgsl"]
+from support import (ENVIRONMENTS, GENERATORS, HARDWARE, data_library, documents, generate, missing, read, report, run,
+                     stages, tool)
 
 
 class Generate(unittest.TestCase):
@@ -26,14 +25,8 @@ class Generate(unittest.TestCase):
             document = read(path, self.library)
             for target in targets:
                 for environment in ENVIRONMENTS if target in HARDWARE else ["FIS"]:
-                    shader = generate(document, target, environment)
-                    variants = [(environment, stage, source) for stage, source in stages(shader).items()]
-                    if environment == "FIS" and target in COMPILED:
-                        # The lobe's own importance sampling, behind its switch.
-                        version, rest = variants[-1][2].split("\n", 1)
-                        variants.append(("own", "pixel", f"{version}\n#define CATSEYE_RETRO_REFLECTIVE_FIS\n{rest}"))
-                    for variant, stage, source in variants:
-                        name = f"{path.stem}.{target}.{variant}"
+                    for stage, source in stages(generate(document, target, environment)).items():
+                        name = f"{path.stem}.{target}.{environment}"
                         suffix = {"vertex": "vert", "pixel": "frag"}[stage]
                         out = pathlib.Path(self.folder.name) / f"{name}.{suffix}"
                         out.write_text(source)
@@ -93,6 +86,19 @@ class Generate(unittest.TestCase):
                 self.assertTrue(good, f"{name}: {output}")
                 count += 1
         report(f"naga translates {count} pixel stages to WGSL")
+
+    def test_slang_compiles(self):
+        import slang
+        try:
+            compiler = slang.Compiler()
+        except Exception as error:  # noqa: BLE001 - no package, another system: the reason is what counts
+            missing(self, f"no Slang: {error}")
+        count = 0
+        for name, stage, _, source in self.each("slang"):
+            output, good = compiler.compile(source)
+            self.assertTrue(good, f"{name} {stage}: {output}")
+            count += 1
+        report(f"Slang accepts {count} stages")
 
 
 if __name__ == "__main__":

@@ -20,6 +20,11 @@ use materials::Finish;
 const EYE: Vec3 = Vec3::new(0.0, 1.35, 0.0);
 
 impl Scene {
+    /// What wears sheeting in the built-in scene, by the paths that a look assigns materials to.
+    pub const BUILTIN_GEOMETRY: [&str; 4] = ["/night/signs", "/night/cones", "/night/studs", "/night/posts"];
+    /// What shows materials on the stage, likewise.
+    pub const PREVIEW_GEOMETRY: [&str; 2] = ["/preview/sphere", "/preview/sheet"];
+
     /// The built-in scene: a road at night in the light of two headlamps beside the camera. Everything on the left
     /// wears retro-reflective sheeting, everything on the right the same colours as matte paint.
     ///
@@ -29,15 +34,24 @@ impl Scene {
     /// # Errors
     /// A parameter of `sheeting` out of its range, or too many lobes in it.
     pub fn builtin(sheeting: Option<&Material>, model: Model) -> Result<Self, Error> {
+        Self::builtin_of([sheeting; 4], model)
+    }
+
+    /// The built-in scene with sheeting of its own for each of [`Scene::BUILTIN_GEOMETRY`].
+    ///
+    /// # Errors
+    /// As [`Scene::builtin`].
+    pub fn builtin_of(sheeting: [Option<&Material>; 4], model: Model) -> Result<Self, Error> {
         let camera = Camera::perspective(EYE, Vec3::new(0.0, 1.22, -10.0), Vec3::Y, 24.0_f32.to_radians());
         let mut builder = SceneBuilder::new(camera);
-        let retro = Finish::sheeting(sheeting, model);
-        let matte = Finish::paint();
-        road::add(&mut builder, &retro, &matte)?;
+        let retro = sheeting.map(|material| Finish::sheeting(material, model));
+        let matte = [(); 4].map(|()| Finish::paint());
+        road::add(&mut builder);
         verge::add(&mut builder);
-        for (side, finish) in [(-1.0, &retro), (1.0, &matte)] {
-            sign::add(&mut builder, Vec3::new(2.55 * side, 0.0, -10.0), finish)?;
-            cone::add(&mut builder, Vec3::new(1.05 * side, 0.0, -8.0), finish)?;
+        for (side, [signs, cones, studs, posts]) in [(-1.0, &retro), (1.0, &matte)] {
+            road::add_side(&mut builder, side, studs, posts)?;
+            sign::add(&mut builder, Vec3::new(2.55 * side, 0.0, -10.0), signs)?;
+            cone::add(&mut builder, Vec3::new(1.05 * side, 0.0, -8.0), cones)?;
         }
         add_lights(&mut builder);
         builder.tone_map(ToneMap { exposure_ev: -7.85, white: 4.0, glare: 0.06 });
@@ -55,7 +69,15 @@ impl Scene {
     /// # Errors
     /// A parameter of the material out of its range, or too many lobes in it.
     pub fn preview(material: &Material, model: Model) -> Result<Self, Error> {
-        preview::scene(material, model)
+        preview::scene([material; 2], model)
+    }
+
+    /// The stage with a material for each of [`Scene::PREVIEW_GEOMETRY`].
+    ///
+    /// # Errors
+    /// As [`Scene::preview`].
+    pub fn preview_of(materials: [&Material; 2], model: Model) -> Result<Self, Error> {
+        preview::scene(materials, model)
     }
 }
 

@@ -7,7 +7,7 @@ use catseye_materialx::Material;
 use glam::Vec3;
 
 use crate::light::{AreaLight, Environment, SphereLight};
-use crate::{Bsdf, Camera, Error, Frame, Mesh, Scene, SceneBuilder, Sphere, ToneMap};
+use crate::{Bsdf, Camera, Error, Frame, Mesh, Scene, SceneBuilder, Shading, Sphere, ToneMap};
 
 /// Where the camera stands.
 const EYE: Vec3 = Vec3::new(0.0, 2.1, 11.0);
@@ -24,16 +24,16 @@ const LAMP_RETURN: f32 = 0.7;
 /// specks.
 const INDIRECT_LIMIT: f32 = 0.6;
 
-pub(crate) fn scene(material: &Material, model: Model) -> Result<Scene, Error> {
+pub(crate) fn scene(materials: [&Material; 2], model: Model) -> Result<Scene, Error> {
     let mut builder = SceneBuilder::new(Camera::perspective(EYE, TARGET, Vec3::Y, 0.235));
-    let bsdf = Bsdf::with_model(&material.bsdf, model)?;
-    let headlamp = headlamp(&bsdf);
-    let subject = builder.materialx(material, model)?;
+    let bsdfs = materials.map(|material| Bsdf::with_model(&material.bsdf, model));
+    let headlamp = headlamp(&bsdfs.into_iter().collect::<Result<Vec<_>, _>>()?);
+    let [sphere, sheet] = materials.map(|material| builder.materialx(material, model));
     let ground = builder.material(Bsdf::matte(Vec3::splat(0.16)));
     let white = builder.material(Bsdf::matte(Vec3::splat(0.8)));
 
-    builder.sphere(Sphere { centre: Vec3::new(-1.0, 0.9, 0.0), radius: 0.9 }, subject);
-    builder.mesh(folded_sheet(), subject);
+    builder.sphere(Sphere { centre: Vec3::new(-1.0, 0.9, 0.0), radius: 0.9 }, sphere?);
+    builder.mesh(folded_sheet(), sheet?);
     builder.sphere(Sphere { centre: Vec3::new(0.12, 0.2, 1.0), radius: 0.2 }, white);
     builder.mesh(studio(), ground);
     builder.light(headlamp);
@@ -46,21 +46,24 @@ pub(crate) fn scene(material: &Material, model: Model) -> Result<Scene, Error> {
 
 /// The lamp beside the camera, or behind it for a perfect retro-reflector, which shows nothing but the camera itself:
 /// then it shines through the pinhole, as a beam splitter would let it.
-fn headlamp(bsdf: &Bsdf) -> SphereLight {
+fn headlamp(bsdfs: &[Bsdf]) -> SphereLight {
     let wo = (EYE - TARGET).normalize();
     // A surface 30 degrees from the line of sight.
     let normal = Frame::from_normal(wo).to_world(Vec3::new(0.5, 0.0, 0.75_f32.sqrt()));
-    let shading = bsdf.at(Frame::from_normal(normal), wo, false);
-    let perfect = |i: u32| {
-        let u = std::array::from_fn(|k| sobol_burley::sample(i, k as u32, 0));
-        shading.sample(u).is_some_and(|s| s.pdf.is_none() && s.wi.dot(wo) > 0.999)
+    let shadings = || bsdfs.iter().map(|bsdf| bsdf.at(Frame::from_normal(normal), wo, false));
+    let perfect = |shading: Shading<'_>| {
+        (0..64).any(|i| {
+            let u = std::array::from_fn(|k| sobol_burley::sample(i, k as u32, 0));
+            shading.sample(u).is_some_and(|s| s.pdf.is_none() && s.wi.dot(wo) > 0.999)
+        })
     };
-    if (0..64).any(perfect) {
+    if shadings().any(perfect) {
         return SphereLight::new(Sphere { centre: EYE + wo * 0.1, radius: 0.05 }, Vec3::splat(LAMP_RETURN));
     }
     let centre = EYE + Vec3::X * (EYE.distance(TARGET) * OBSERVATION_ANGLE.tan());
-    let (f_cos, _) = shading.eval_pdf((centre - TARGET).normalize());
-    let irradiance = LAMP_IRRADIANCE.min(LAMP_RETURN / f_cos.max_element().max(1e-6));
+    let wi = (centre - TARGET).normalize();
+    let most = shadings().map(|shading| shading.eval_pdf(wi).0.max_element()).fold(1e-6, f32::max);
+    let irradiance = LAMP_IRRADIANCE.min(LAMP_RETURN / most);
     let intensity = irradiance * centre.distance_squared(TARGET);
     let sphere = Sphere { centre, radius: 0.006 };
     SphereLight::new(sphere, Vec3::splat(intensity / (PI * sphere.radius * sphere.radius)))

@@ -10,29 +10,39 @@ use crate::{Bsdf, Error, Mesh, SceneBuilder};
 pub(crate) const HALF_WIDTH: f32 = 2.05;
 /// How far the road goes.
 pub(crate) const LENGTH: f32 = 400.0;
+/// White of the markings.
+const PAINT: Vec3 = Vec3::splat(0.6);
 /// Height of markings over the asphalt.
 const MARKING: f32 = 0.003;
 
-/// Adds the road with retro-reflective furniture on its left and matte on its right.
-pub(crate) fn add(builder: &mut SceneBuilder, left: &Finish, right: &Finish) -> Result<(), Error> {
+/// Adds the road and the line in its middle.
+pub(crate) fn add(builder: &mut SceneBuilder) {
     let asphalt = builder.material(Bsdf::matte(Vec3::new(0.17, 0.17, 0.175)));
     builder.mesh(surface(), asphalt);
-    let paint = builder.material(Bsdf::matte(Vec3::splat(0.6)));
+    let paint = builder.material(Bsdf::matte(PAINT));
     for i in 0..40 {
         builder.mesh(strip(0.0, 0.06, 4.0 + 6.0 * i as f32, 3.0), paint);
     }
-    for (side, finish) in [(-1.0, left), (1.0, right)] {
-        builder.mesh(strip(side * (HALF_WIDTH - 0.2), 0.06, 0.0, LENGTH), paint);
-        let stud = finish.material(builder, AMBER)?;
-        let reflector = finish.material(builder, WHITE)?;
-        let body = builder.material(Bsdf::matte(Vec3::splat(0.5)));
-        for i in 0..9 {
-            add_stud(builder, Vec3::new(side * (HALF_WIDTH - 0.4), 0.0, -4.6 - 5.0 * i as f32), stud, body);
-        }
-        for i in 0..5 {
-            let foot = Vec3::new(side * (HALF_WIDTH + 0.55), 0.0, -17.0 - 11.0 * i as f32);
-            add_post(builder, foot, reflector, body);
-        }
+}
+
+/// Adds the line along one side, its studs and its posts; `side` is 1 for the right one.
+pub(crate) fn add_side(
+    builder: &mut SceneBuilder,
+    side: f32,
+    studs: &Finish,
+    posts: &Finish,
+) -> Result<(), Error> {
+    let paint = builder.material(Bsdf::matte(PAINT));
+    builder.mesh(strip(side * (HALF_WIDTH - 0.2), 0.06, 0.0, LENGTH), paint);
+    let stud = studs.material(builder, AMBER)?;
+    let reflector = posts.material(builder, WHITE)?;
+    let body = builder.material(Bsdf::matte(Vec3::splat(0.5)));
+    for i in 0..9 {
+        add_stud(builder, Vec3::new(side * (HALF_WIDTH - 0.4), 0.0, -4.6 - 5.0 * i as f32), stud, body);
+    }
+    for i in 0..5 {
+        let foot = Vec3::new(side * (HALF_WIDTH + 0.55), 0.0, -17.0 - 11.0 * i as f32);
+        add_post(builder, foot, reflector, body);
     }
     Ok(())
 }

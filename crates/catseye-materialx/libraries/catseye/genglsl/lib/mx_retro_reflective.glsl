@@ -4,7 +4,7 @@
 
 // A perfect retro-reflector has no density. The peak of this roughness, 2 / (4 pi 0.002^2) = 39800, is still within the
 // range of half-precision frame buffers; the narrowest of real sheeting is wider.
-const float RETRO_REFLECTIVE_MIN_ROUGHNESS = 0.002;
+#define RETRO_REFLECTIVE_MIN_ROUGHNESS 0.002
 
 // The tangent made perpendicular to the normal; any such vector where that is impossible.
 vec3 mx_retro_reflective_tangent(vec3 X, vec3 N)

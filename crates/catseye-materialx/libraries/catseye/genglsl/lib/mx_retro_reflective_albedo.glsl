@@ -18,7 +18,7 @@ struct RetroReflectiveAlbedo
     bool u_wider;
 };
 
-const float RETRO_REFLECTIVE_ALBEDO_KAPPA = 0.4;
+#define RETRO_REFLECTIVE_ALBEDO_KAPPA 0.4
 
 // The sums of both for a ratio of 1, where every T_b is 1 and w is 0.
 void mx_retro_reflective_contract_isotropic(vec4 t_m, float m, inout RetroReflectiveAlbedo albedo)

@@ -32,61 +32,20 @@ RetroReflectiveEllipse mx_retro_reflective_ellipse(vec3 wo, vec2 widths)
     return ellipse;
 }
 
-// The lobe's response to the environment, for unit tint: the integral of radiance, BSDF and cosine. `albedo` is that of the
-// lobe along wo.
-#ifdef CATSEYE_RETRO_REFLECTIVE_FIS
-
-// Filtered importance sampling of the lobe itself, in the modes that have an environment map: theory.md, section 3.
-// http://cgg.mff.cuni.cz/~jaroslav/papers/2008-egsr-fis/2008-egsr-fis-final-embedded.pdf
-vec3 mx_retro_reflective_environment(vec3 V, vec3 X, vec3 Y, vec3 N, vec3 wo, vec2 widths, float albedo)
-{
-    float norm = 0.5 * M_PI_INV / (widths.x * widths.y);
-    vec3 radiance = vec3(0.0);
-    for (int i = 0; i < $envRadianceSamples; i++)
-    {
-        // The disk offset d, with |d|^2 = 1 - (1 - u)^(1/(n+1)) and 1/(n+1) = |e|^2 along the azimuth.
-        vec2 Xi = mx_spherical_fibonacci(i, $envRadianceSamples);
-        vec2 e = widths * vec2(mx_cos(2.0 * M_PI * Xi.y), mx_sin(2.0 * M_PI * Xi.y));
-        float m2 = dot(e, e);
-        float power = m2 * log(1.0 - Xi.x);
-        float d2 = (power > -0.01) ? -power * (1.0 + power * (0.5 + power / 6.0)) : 1.0 - exp(power);
-        vec2 d = e * sqrt(d2 / m2);
-
-        // wi = 2 (o.h) / (h.h) h - o with h = (o_xy + d, z_o).
-        vec3 h = vec3(wo.xy + d, wo.z);
-        float a = dot(wo.xy, d);
-        vec3 wi = 2.0 * (1.0 + a) / dot(h, h) * h - wo;
-        float z_i = wo.z * (1.0 - d2) / dot(h, h);
-        float ratio = min(z_i / wo.z, 1.0);
-
-        vec3 Lw = normalize(X * wi.x + Y * wi.y + N * z_i);
-        float pdf = norm * (1.0 - Xi.x) * wo.z / (max(z_i, 1e-6) * (wo.z + z_i));
-        float lod = mx_latlong_compute_lod(Lw, pdf, float($envRadianceMips - 1), $envRadianceSamples);
-        radiance += ratio * ratio * ratio * mx_latlong_map_lookup(Lw, $envMatrix, lod, $envRadiance);
-    }
-    return radiance * ($envLightIntensity / float(max($envRadianceSamples, 1)));
-}
-
-#else
-
-// `mx_environment_radiance` is the one thing that every environment mode, and every host with a mode of its own, defines:
-// filtered importance sampling, a look-up in a prefiltered map, or nothing. A microfacet lobe whose normal is the view
-// direction is a lobe around the view direction; its widths are chosen so that half the energy lies in the same ellipse:
-// 1 - 2^(-m^2) for both.
-vec3 mx_retro_reflective_environment(vec3 V, vec3 X, vec3 Y, vec3 N, vec3 wo, vec2 widths, float albedo)
-{
-    RetroReflectiveEllipse ellipse = mx_retro_reflective_ellipse(wo, widths);
-    vec2 alpha = clamp(sqrt(vec2(1.0) - exp2(-ellipse.widths * ellipse.widths)), 1e-3, 1.0);
-
-    // The direction away from the normal, in the plane perpendicular to V.
-    float sin_theta = sqrt(dot(wo.xy, wo.xy));
-    vec3 away = (sin_theta > 1e-4) ? normalize(wo.z * V - N) : X;
-    vec3 around = cross(V, away);
-    vec3 axis = mx_cos(ellipse.angle) * away + mx_sin(ellipse.angle) * around;
-
-    FresnelData fd = mx_init_fresnel_schlick(vec3(1.0), vec3(1.0), vec3(1.0), 5.0, 0.0, 1.0);
-    vec3 Li = mx_environment_radiance(V, V, axis, alpha, 0, fd);
-    return albedo * Li / mx_ggx_dir_albedo(1.0, mx_average_alpha(alpha), 1.0, 1.0);
-}
-
-#endif
+// The lobe's response to the environment, for unit tint, is the integral of radiance, BSDF and cosine. How it is found depends
+// on the environment mode, which no macro of MaterialX's tells. But a file is emitted once, and by now that of the mode has
+// been: here the FIS mode's is empty in the FIS mode, and elsewhere the text of two functions. Where it is text, its second
+// function's name ends the argument list of KEEP_FIRST and starts one of KEEP_SECOND, so the text itself never remains.
+#define RETRO_REFLECTIVE_IF_EMPTY(text, first, second) RETRO_REFLECTIVE_KEEP_FIRST(text, first, second)
+#define RETRO_REFLECTIVE_KEEP_FIRST(text, first, second) first
+#define RETRO_REFLECTIVE_KEEP_SECOND(text, first, second) second
+#define RETRO_REFLECTIVE_OPEN (
+#define mx_environment_irradiance , , ) RETRO_REFLECTIVE_KEEP_SECOND RETRO_REFLECTIVE_OPEN
+RETRO_REFLECTIVE_IF_EMPTY(
+#include "libraries/pbrlib/genglsl/lib/mx_environment_fis.glsl"
+,
+#include "mx_retro_reflective_environment_fis.glsl"
+,
+#include "mx_retro_reflective_environment_lookup.glsl"
+)
+#undef mx_environment_irradiance
