@@ -10,11 +10,11 @@ use catseye_photometry::{
 
 /// The values that a sheeting has at some angles.
 fn values_of(sheeting: &Sheeting, angles: &[(f64, f64, f64)]) -> Vec<Observation> {
-    let prepared = sheeting.prepare().unwrap();
+    let prepared = sheeting.prepare().expect("roughness in range");
     let value = |&(observation, entrance, rotation): &(f64, f64, f64)| {
         let geometry = Geometry::from(Goniometer::from_degrees(observation, entrance, 0.0, rotation));
         let f = prepared.eval(geometry.wo, geometry.wi);
-        let factor = Quantity::RetroReflectionCoefficient.from_brdf(1.0, &geometry).unwrap();
+        let factor = Quantity::RetroReflectionCoefficient.from_brdf(1.0, &geometry).unwrap_or(f64::NAN);
         let view = catseye_photometry::fit::View { wo: geometry.wo, wi: geometry.wi, factor };
         Observation { value: f * factor, aim: Aim::Equal, views: vec![view] }
     };

@@ -23,8 +23,8 @@ const BRDF_RULE: usize = 7;
 /// Fit a material to coefficients of retro-reflection, of a CSV table or of a standard's class
 ///
 /// Finds a sum of retro-reflective lobes with entrance factors, and a diffuse base where a luminance factor is given, whose albedo
-/// is at most 1. The table has the columns observation_deg, entrance_deg, value and unit; rotation_deg (0), quantity (R_A),
-/// standard, class, colour and source are optional. `catseye standards list` names the classes that come with the program.
+/// is at most 1. The table has the columns `observation_deg`, `entrance_deg`, `value` and `unit`; `rotation_deg` (0),
+/// `quantity` (R_A), `standard`, `class`, `colour` and `source` are optional. `catseye standards list` names the classes that come with the program.
 /// Without a wish, the simplest model whose worst value is within the tolerance is chosen. Exit code 1 if there is none; then
 /// no material is written.
 #[derive(Debug, clap::Args)]
@@ -103,10 +103,10 @@ enum Entrance {
 /// The models that sheeting is fitted with.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 enum FitModel {
-    /// The proposal's lobe: retro_reflective_bsdf
+    /// The proposal's lobe: `retro_reflective_bsdf`
     #[default]
     Reciprocal,
-    /// The microfacet lobe of MaterialX 1.39.5: generalized_schlick_bsdf with retroreflective
+    /// The microfacet lobe of MaterialX 1.39.5: `generalized_schlick_bsdf` with `retroreflective`
     BackVector,
 }
 

@@ -136,9 +136,9 @@ pub(crate) fn choose(
 ) -> Result<(Solution, Vec<Trial>), FitError> {
     let rows = observations.len();
     let judged = match observations.iter().any(|row| row.aim == Aim::AtLeast) {
-        true => Judged::ByLimits(options.tolerance),
-        false if rows <= TABLE_ROWS => Judged::ByWorst,
-        false => Judged::ByNoise,
+        true => Judged::Limits(options.tolerance),
+        false if rows <= TABLE_ROWS => Judged::Worst,
+        false => Judged::Noise,
     };
     let mut trials = Vec::new();
     let mut best: Option<Solution> = None;
@@ -148,7 +148,7 @@ pub(crate) fn choose(
         };
         let (unknowns, worst, rms) = (found.unknowns(), found.worst, found.rms);
         trials.push(Trial { form, unknowns, worst, rms });
-        let done = judged == Judged::ByWorst && is_acceptable(&found, rows, options.tolerance);
+        let done = judged == Judged::Worst && is_acceptable(&found, rows, options.tolerance);
         if best.as_ref().is_none_or(|best| judged.score(&found) < judged.score(best)) {
             best = Some(found);
         }
@@ -165,11 +165,11 @@ pub(crate) fn choose(
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Judged {
     /// The worst row of a table; the first form that meets the tolerance will do.
-    ByWorst,
+    Worst,
     /// Errors of unknown size.
-    ByNoise,
+    Noise,
     /// Limits with the least to spare, in units of this tolerance: with strength enough every form meets a minimum.
-    ByLimits(f64),
+    Limits(f64),
 }
 
 impl Judged {
@@ -178,9 +178,9 @@ impl Judged {
         let rows = solution.log_ratios.len() as f64;
         let price = solution.unknowns() as f64 * rows.ln();
         match self {
-            Self::ByWorst => solution.worst,
-            Self::ByNoise => rows * 2.0 * solution.rms.max(f64::MIN_POSITIVE).ln() + price,
-            Self::ByLimits(tolerance) => solution.improbability(tolerance) + price,
+            Self::Worst => solution.worst,
+            Self::Noise => rows * 2.0 * solution.rms.max(f64::MIN_POSITIVE).ln() + price,
+            Self::Limits(tolerance) => solution.improbability(tolerance) + price,
         }
     }
 }
