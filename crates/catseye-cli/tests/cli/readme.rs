@@ -1,11 +1,11 @@
-//! The README's examples of the command run and print what it shows.
+//! The examples of the README and of the guides run and print what they show.
 
 use std::os::unix::fs::symlink;
 use std::path::Path;
 
-use crate::run::{Bench, alike};
+use crate::run::{Bench, alike, alike_within};
 
-/// The text blocks of the README, each with the commands before it.
+/// The text blocks of a document, each with the commands before it.
 fn examples(readme: &str) -> Vec<(&str, &str)> {
     let blocks = readme.split("```text\n").skip(1).zip(readme.split("```text\n"));
     blocks
@@ -39,4 +39,27 @@ fn every_example_of_the_readme_prints_what_it_shows() {
         assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""), "{commands}");
         assert!(alike(&timeless(shown), &timeless(&outcome.stdout)), "{commands}{}", outcome.stdout);
     }
+}
+
+/// The photometry guide, from the data sheet to the rendered sign: its steps build on each other.
+#[test]
+fn the_photometry_guide_leads_from_a_data_sheet_to_a_sign() {
+    /// A fit's last printed digit may depend on the mathematical library: four are printed.
+    const PRINTED: f64 = 2e-3;
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("../..");
+    let guide = std::fs::read_to_string(root.join("docs/photometry.md")).unwrap();
+    let steps: Vec<&str> =
+        guide.split("```sh\n").skip(1).map(|part| part.split_once("```").unwrap().0).collect();
+    let shown = examples(&guide);
+    assert_eq!((steps.len(), shown.len()), (5, 4), "five steps, of which the first prints nothing");
+    let bench = Bench::new();
+    for commands in steps {
+        let outcome = bench.shell(&commands.replace("target/release/catseye", "catseye"));
+        assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""), "{commands}");
+        let shown = shown.iter().find(|(of, _)| *of == commands).map_or("", |(_, shown)| shown);
+        let (shown, printed) = (timeless(shown), timeless(&outcome.stdout));
+        assert!(alike_within(&shown, &printed, PRINTED), "{commands}{printed}");
+    }
+    let left = ["night.png", "sheet.csv", "sign.html", "sign.mtlx", "sign.png", "sign_ra.png"];
+    assert_eq!(bench.files(), left);
 }

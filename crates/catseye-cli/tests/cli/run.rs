@@ -112,9 +112,14 @@ pub(crate) fn column(text: &str, name: &str) -> Vec<f64> {
 
 /// Equal texts; numbers up to the rounding that another machine's mathematical functions may do.
 pub(crate) fn alike(a: &str, b: &str) -> bool {
+    alike_within(a, b, 1e-9)
+}
+
+/// Whether two texts are the same but for numbers, which may differ by a share of their size.
+pub(crate) fn alike_within(a: &str, b: &str, share: f64) -> bool {
     let words = |text: &str| text.split([',', ':', '}', ' ', '\n']).map(str::to_owned).collect::<Vec<_>>();
     let same = |(a, b): (&String, &String)| match (a.parse::<f64>(), b.parse::<f64>()) {
-        (Ok(x), Ok(y)) => a == b || (x - y).abs() <= 1e-9 * x.abs(),
+        (Ok(x), Ok(y)) => a == b || (x - y).abs() <= share * x.abs(),
         _ => a == b,
     };
     let (a, b) = (words(a), words(b));

@@ -18,9 +18,9 @@ const ROUGHNESS_PRIOR: [f64; 2] = [0.008, 2.5];
 /// Exponents of the cosine; a negative one needs a knee, or the lobe would gain light towards the horizon.
 const POWER: [f64; 2] = [0.0, 40.0];
 const POWER_BESIDE_KNEE: f64 = -3.0;
-/// Squared sine at the knee: 6 to 90 degrees.
+/// Squared sine at the knee: 6 to 90 degrees. A steeper knee than the steepest is an edge on the material.
 const KNEE_POSITION: [f64; 2] = [0.01, 1.0];
-const KNEE_STEEPNESS: [f64; 2] = [1.0, 16.0];
+const KNEE_STEEPNESS: [f64; 2] = [1.0, 8.0];
 
 /// How a lobe's strength may depend on the entrance angle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
