@@ -95,7 +95,7 @@ impl Outcome<'_> {
     /// The result for people.
     pub(crate) fn text(&self) -> String {
         let mut text = String::new();
-        let title = if self.subject.title.is_empty() { &self.subject.name } else { &self.subject.title };
+        let title = &self.subject.title;
         let _ = writeln!(text, "{title}: {}\n", describe(&self.fit.form));
         let _ = writeln!(text, "{:<28} {:>12}   one standard deviation", "number", "value");
         for estimate in &self.fit.estimates {

@@ -19,8 +19,7 @@ border-bottom:1px solid #dde0e3}th:first-child,td:first-child{text-align:left}th
 /// The whole page.
 pub(crate) fn page(outcome: &Outcome<'_>) -> anyhow::Result<String> {
     let fit = outcome.fit;
-    let title = if outcome.subject.title.is_empty() { &outcome.subject.name } else { &outcome.subject.title };
-    let title = escaped(title);
+    let title = escaped(&outcome.subject.title);
     let mut html = format!(
         "<!DOCTYPE html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{title}</title>\n<style>{STYLE}</style>\n\
          <h1>{title}</h1>\n<p>{}</p>\n",
@@ -48,11 +47,8 @@ pub(crate) fn page(outcome: &Outcome<'_>) -> anyhow::Result<String> {
         trials(&mut html, &beside.trials, "back-vector: ");
         numbers(&mut html, beside);
     }
-    html.push_str("<h2>Sources</h2>\n<ul>\n");
-    for source in outcome.subject.sources() {
-        let _ = writeln!(html, "<li>{}</li>", escaped(source));
-    }
-    html.push_str("</ul>\n</html>\n");
+    sources(&mut html, &outcome.subject.sources());
+    html.push_str("</html>\n");
     Ok(html)
 }
 
@@ -84,6 +80,17 @@ fn curves(outcome: &Outcome<'_>, fit: &Fit, model: &str) -> anyhow::Result<Strin
         Ok(Quantity::RetroReflectionCoefficient.from_brdf(f, geometry).unwrap_or_default())
     })?;
     figure::svg(&figure)
+}
+
+fn sources(html: &mut String, sources: &[&str]) {
+    if sources.is_empty() {
+        return;
+    }
+    html.push_str("<h2>Sources</h2>\n<ul>\n");
+    for source in sources {
+        let _ = writeln!(html, "<li>{}</li>", escaped(source));
+    }
+    html.push_str("</ul>\n");
 }
 
 fn numbers(html: &mut String, fit: &Fit) {

@@ -19,7 +19,7 @@ const BRDF_SAMPLES: usize = 400;
 pub(crate) struct Subject {
     /// The name of the file or of the standard's class.
     pub(crate) name: String,
-    /// What the rows say they are of, such as `ASTM D4956-01 Type I white`; empty where they say nothing.
+    /// What the rows say they are of, such as `ASTM D4956 Type I white`; the name where they say nothing.
     pub(crate) title: String,
     /// The rows with values that can be fitted; none of a measured BRDF, which has too many to list.
     pub(crate) rows: Vec<Row>,
@@ -67,7 +67,7 @@ impl Subject {
                 "{skipped} samples are negative, not finite or below the surface, and left out"
             ));
         }
-        Ok(Self { title: String::new(), name, rows: Vec::new(), brdf: Some(brdf), roughness: None, remarks })
+        Ok(Self { title: name.clone(), name, rows: Vec::new(), brdf: Some(brdf), roughness: None, remarks })
     }
 
     fn of_table(table: &Table, only: Option<&str>) -> anyhow::Result<Self> {
@@ -85,12 +85,17 @@ impl Subject {
                 titles(table.rows())
             );
         };
-        // A standard's class may come from several of its editions: the catalogue has joined them.
-        let is_class = |row: &Row| (&row.class, &row.colour) == (&first.class, &first.colour);
-        if only.is_none() && !rows.iter().all(is_class) && !is_joined(&rows) {
+        // The tables that come with the program have a column that names the class; others say it in two.
+        let id = table.header().iter().position(|name| name == "id");
+        let class = |row: &Row| match id {
+            Some(id) => vec![row.cells.get(id).cloned().unwrap_or_default()],
+            None => vec![row.class.clone(), row.colour.clone()],
+        };
+        if only.is_none() && rows.iter().any(|row| class(row) != class(first)) {
             bail!("{}: holds several materials; choose one with --only: {}", table.name(), titles(&rows));
         }
-        let (name, title) = (table.name().to_owned(), title(first));
+        let name = table.name().to_owned();
+        let title = Some(title(first)).filter(|title| !title.is_empty()).unwrap_or_else(|| name.clone());
         Ok(Self { name, title, rows, brdf: None, roughness: None, remarks: Vec::new() })
     }
 
@@ -167,15 +172,6 @@ impl Subject {
     pub(crate) fn has_luminance_factor(&self) -> bool {
         self.rows.iter().any(|row| row.quantity == Quantity::LuminanceFactor)
     }
-}
-
-/// Whether the rows are those of one class that came with the program.
-fn is_joined(rows: &[Row]) -> bool {
-    let mut colours: Vec<&str> = rows.iter().map(|row| row.colour.as_str()).collect();
-    colours.dedup();
-    let mut ids: Vec<_> = rows.iter().map(|row| row.cells.first()).collect();
-    ids.dedup();
-    colours.len() == 1 && ids.len() == 1 && ids[0].is_some_and(|id| id.contains(':'))
 }
 
 fn title(row: &Row) -> String {

@@ -221,7 +221,7 @@ impl Args {
         let stem = self.output.as_deref().and_then(Path::file_stem).map(|stem| stem.to_string_lossy());
         let name = self.name.clone().or_else(|| stem.map(Into::into)).unwrap_or_default();
         let subject = outcome.subject;
-        let title = if subject.title.is_empty() { &subject.name } else { &subject.title };
+        let title = &subject.title;
         let command = command_line(std::env::args().skip(1));
         let doc = format!("Fitted to {title} by catseye {command}: {}.", outcome.verdict());
         let sources = subject.sources().join("; ");
