@@ -122,7 +122,10 @@ pub fn fit(observations: &[Observation], options: &FitOptions) -> Result<Fit, Fi
     let estimates = uncertainty::estimates(&solution, observations, options);
     let mut warnings = span.warnings(options, observations.len(), solution.unknowns());
     warnings.extend(estimates.iter().filter_map(Estimate::warning));
-    let shape = if options.model == Model::Reciprocal { shape::shape_bound(observations) } else { None };
+    // The noise of measurements is not log-convex either.
+    let is_table = observations.len() <= TABLE_ROWS;
+    let shape =
+        (is_table && options.model == Model::Reciprocal).then(|| shape::shape_bound(observations)).flatten();
     Ok(Fit {
         form: solution.form,
         estimates,
