@@ -173,6 +173,12 @@ fn a_table_that_says_nothing_is_refused() {
     let options = FitOptions::default();
     assert!(matches!(fit(&[], &options), Err(FitError::Empty)));
     assert!(matches!(fit(&one, &options), Err(FitError::OneObservationAngle { .. })));
+    // A luminance factor is another angle, but says nothing of the lobes.
+    let by_day = values_of(&Sheeting { diffuse: 0.3, ..Sheeting::default() }, &[(45.0, 45.0, 0.0)]);
+    let and_by_day = [one.clone(), by_day.clone()].concat();
+    let with_base = FitOptions { diffuse: true, ..options };
+    assert!(matches!(fit(&and_by_day, &with_base), Err(FitError::OneObservationAngle { .. })));
+    assert!(matches!(fit(&by_day, &with_base), Err(FitError::NotRetro)));
     let with_width = fit(&one, &FitOptions { roughness: Some(0.006), ..options }).unwrap();
     assert!((with_width.sheeting.lobes[0].strength / 0.06 - 1.0).abs() < 0.01, "{with_width:?}");
     for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {

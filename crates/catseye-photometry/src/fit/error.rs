@@ -26,6 +26,9 @@ pub enum FitError {
         /// Number of the observation, from 1.
         row: usize,
     },
+    /// Luminance factors alone, for instance.
+    #[error("no value is within 30 deg of the retro direction: nothing says what comes back")]
+    NotRetro,
     /// All values are at one observation angle, so nothing says how wide the lobe is.
     #[error(
         "all values are at the observation angle {angle_deg:.3} deg: the width of a lobe can't be determined; \

@@ -2,7 +2,7 @@
 
 use catseye::Vec3;
 
-use crate::{ApertureRule, Quantity, Row};
+use crate::{ApertureRule, Geometry, Quantity, Row};
 
 /// Whether a value is met or only bounded.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -70,6 +70,25 @@ impl Observation {
                 .collect::<Vec<_>>()
         };
         Self { views: self.views.iter().flat_map(spread).collect(), ..self.clone() }
+    }
+}
+
+/// Angle from the retro direction beyond which a value is of the diffuse base, not of the lobes: a luminance factor.
+pub(crate) const RETRO_REACH: f64 = 30.0 * core::f64::consts::PI / 180.0;
+
+impl Observation {
+    /// The middle of the directions: to the receiver, to the source. An aperture's views surround what is meant.
+    pub(crate) fn centre(&self) -> Geometry {
+        let mean = |of: fn(&View) -> Vec3<f64>| {
+            let add = |a: Vec3<f64>, b: Vec3<f64>| Vec3::new(a.x + b.x, a.y + b.y, a.z + b.z);
+            self.views.iter().map(of).fold(Vec3::default(), add).normalized()
+        };
+        Geometry { wo: mean(|view| view.wo), wi: mean(|view| view.wi) }
+    }
+
+    /// Whether the value says something about the lobes.
+    pub(crate) fn is_retro(&self) -> bool {
+        self.centre().observation() <= RETRO_REACH
     }
 }
 

@@ -1,18 +1,17 @@
 //! Which forms are tried, and which one is chosen.
 
-use catseye::Vec3;
-
 use super::form::{EntranceKind, Form};
 use super::observation::{Aim, Observation};
 use super::solve::{Solution, TABLE_ROWS, polish, solve};
 use super::{FitError, FitOptions, Trial, is_acceptable};
+use crate::Geometry;
 
 /// Most lobes of a fit.
 pub const MAX_LOBES: usize = 3;
 /// Angles that differ by less than this are one: a hundredth of a degree.
 const SAME_ANGLE: f64 = 1.8e-4;
 
-/// Which angles the data cover.
+/// Which angles the values near the retro direction cover.
 #[derive(Clone, Debug)]
 pub(crate) struct Span {
     observation: Vec<f64>,
@@ -23,38 +22,23 @@ pub(crate) struct Span {
 
 impl Span {
     pub(crate) fn of(observations: &[Observation]) -> Self {
-        // An aperture's views surround the direction that is meant.
-        let centre = |observation: &Observation| {
-            let mean = |of: fn(&super::View) -> Vec3<f64>| {
-                let sum = observation
-                    .views
-                    .iter()
-                    .map(of)
-                    .fold(Vec3::default(), |a: Vec3<f64>, b| Vec3::new(a.x + b.x, a.y + b.y, a.z + b.z));
-                sum.normalized()
-            };
-            (mean(|view| view.wo), mean(|view| view.wi))
-        };
-        let pairs: Vec<_> = observations.iter().map(centre).collect();
-        let chord = |(a, b): &(Vec3<f64>, Vec3<f64>)| {
-            let d = Vec3::new(a.x - b.x, a.y - b.y, a.z - b.z);
-            2.0 * (0.5 * d.dot(d).sqrt()).min(1.0).asin()
-        };
-        let entrance = |(_, wi): &(Vec3<f64>, Vec3<f64>)| wi.z.clamp(-1.0, 1.0).acos();
-        let plane = |(wo, wi): &(Vec3<f64>, Vec3<f64>)| {
+        let seen: Vec<Geometry> =
+            observations.iter().filter(|row| row.is_retro()).map(Observation::centre).collect();
+        let plane = |Geometry { wo, wi }: &Geometry| {
             let [x, y] = [wo.z * wi.x - wi.z * wo.x, wo.z * wi.y - wi.z * wo.y];
             y.atan2(x).rem_euclid(core::f64::consts::PI)
         };
-        let planes = distinct(pairs.iter().map(plane));
+        let planes = distinct(seen.iter().map(plane));
         Self {
-            observation: distinct(pairs.iter().map(chord)),
-            entrance: distinct(pairs.iter().map(entrance)),
+            observation: distinct(seen.iter().map(Geometry::observation)),
+            entrance: distinct(seen.iter().map(Geometry::entrance)),
             turned: planes.len() > 1,
         }
     }
 
     pub(crate) fn check(&self, options: &FitOptions) -> Result<(), FitError> {
         match self.observation[..] {
+            [] => Err(FitError::NotRetro),
             [only] if options.roughness.is_none() => {
                 Err(FitError::OneObservationAngle { angle_deg: only.to_degrees() })
             }

@@ -3,7 +3,7 @@
 use levenberg_marquardt::LevenbergMarquardt;
 
 use super::form::{Form, Meaning, Unknown};
-use super::observation::{Aim, Observation};
+use super::observation::{Aim, Observation, RETRO_REACH};
 use super::problem::{Problem, aim_weight, excess, log_ratios};
 use crate::sheeting::Sheeting;
 
@@ -185,9 +185,9 @@ fn reweight(weights: &mut [f64], observations: &[Observation], solution: &Soluti
 
 /// A start: widths spread over the observation angles, strengths to match, the rest around where ignorance puts it.
 fn starting_point(form: Form, unknowns: &[Unknown], observations: &[Observation], start: usize) -> Vec<f64> {
-    let angles = observations.iter().flat_map(|row| &row.views).map(|view| angle_between(view.wo, view.wi));
-    // Measured BRDFs also have the retro direction itself, which is no lobe's width.
-    let angles = angles.filter(|angle| *angle > 0.0);
+    let angles = observations.iter().map(|row| row.centre().observation());
+    // The retro direction itself is no lobe's width, nor is the angle of a luminance factor.
+    let angles = angles.filter(|angle| *angle > 0.0 && *angle <= RETRO_REACH);
     let (least, most) = angles.fold((f64::INFINITY, 0.0_f64), |(low, high), a| (low.min(a), high.max(a)));
     let reach = (1.5 * most / least).ln();
     // A sequence of low discrepancy, another one for each number; the first start is in the middle.
@@ -217,11 +217,4 @@ fn starting_point(form: Form, unknowns: &[Unknown], observations: &[Observation]
         }
     }
     x
-}
-
-/// The angle between two directions, accurate where it is small.
-fn angle_between(a: catseye::Vec3<f64>, b: catseye::Vec3<f64>) -> f64 {
-    let d = [a.x - b.x, a.y - b.y, a.z - b.z];
-    let chord = d.iter().map(|x| x * x).sum::<f64>().sqrt();
-    2.0 * (0.5 * chord).min(1.0).asin()
 }
