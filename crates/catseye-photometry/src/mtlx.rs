@@ -7,7 +7,7 @@ use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesText, Event};
 
 use crate::colour::Colour;
-use crate::entrance::LEAST_COSINE;
+use crate::entrance::{DEEPEST_FALL, LEAST_COSINE};
 use crate::sheeting::Sheeting;
 
 /// What a document says beside the numbers.
@@ -186,21 +186,25 @@ impl Document {
         self.close(category);
     }
 
-    /// `cosine^power exp(-((1 - cosine^2) / position)^steepness)`.
+    /// `cosine^power exp(-((1 / cosine^2 - 1) / position)^steepness)`.
     fn entrance(&mut self, name: &str, factor: &crate::EntranceFactor) {
         let power = if factor.knee.is_some() { format!("{name}_power") } else { name.to_owned() };
         self.node("power", &power, "float", &[in1("entrance_cosine"), in2(factor.power)]);
         let Some(knee) = factor.knee else { return };
         let part = |part: &str| format!("{name}_{part}");
-        let (square, sine, share, fall, negative, drop) =
-            (part("cosine2"), part("sine2"), part("share"), part("fall"), part("negative"), part("drop"));
+        let [square, inverse, tangent, share, fall, limited, negative, drop] =
+            ["cosine2", "secant2", "tangent2", "share", "fall", "limited", "negative", "drop"].map(part);
         let cosine = |input| (input, "float", Feed::Node("entrance_cosine".to_owned()));
         self.node("multiply", &square, "float", &[cosine("in1"), cosine("in2")]);
-        let one = ("amount", "float", Feed::Value("1".to_owned()));
-        self.node("invert", &sine, "float", &[("in", "float", Feed::Node(square)), one]);
-        self.node("divide", &share, "float", &[in1(&sine), in2(knee.position)]);
-        self.node("power", &fall, "float", &[in1(&share), in2(knee.steepness)]);
-        self.node("multiply", &negative, "float", &[in1(&fall), in2(-1.0)]);
+        let one = ("in1", "float", Feed::Value("1".to_owned()));
+        self.node("divide", &inverse, "float", &[one, ("in2", "float", Feed::Node(square))]);
+        self.node("subtract", &tangent, "float", &[in1(&inverse), in2(1.0)]);
+        self.node("divide", &share, "float", &[in1(&tangent), in2(knee.position)]);
+        // Rounding must not give a negative number to the power.
+        self.node("max", &format!("{share}_positive"), "float", &[in1(&share), in2(0.0)]);
+        self.node("power", &fall, "float", &[in1(&format!("{share}_positive")), in2(knee.steepness)]);
+        self.node("min", &limited, "float", &[in1(&fall), in2(DEEPEST_FALL)]);
+        self.node("multiply", &negative, "float", &[in1(&limited), in2(-1.0)]);
         self.node("exp", &drop, "float", &[("in", "float", Feed::Node(negative))]);
         self.node("multiply", name, "float", &[in1(&power), ("in2", "float", Feed::Node(drop))]);
     }

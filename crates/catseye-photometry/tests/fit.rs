@@ -52,7 +52,7 @@ fn a_single_lobe_is_found_again() {
 
 #[test]
 fn an_anisotropic_lobe_needs_a_turned_sample_and_is_found_then() {
-    let sheeting = Sheeting { lobes: vec![lobe(0.1, [0.005, 0.015], 1.0)], ..Sheeting::default() };
+    let sheeting = Sheeting { lobes: vec![lobe(0.1, [0.005, 0.015], 1.5)], ..Sheeting::default() };
     let found = fit(&values_of(&sheeting, &grid(&[0.0, 90.0])), &FitOptions::default()).unwrap();
     let [found_lobe] = found.sheeting.lobes[..] else { panic!("{:?}", found.form) };
     assert!((found_lobe.roughness[0] / 0.005 - 1.0).abs() < 1e-3, "{found_lobe:?}");
@@ -61,7 +61,7 @@ fn an_anisotropic_lobe_needs_a_turned_sample_and_is_found_then() {
 
 #[test]
 fn two_lobes_are_told_from_one() {
-    let lobes = vec![lobe(0.05, [0.005; 2], 1.0), lobe(0.06, [0.02; 2], 1.0)];
+    let lobes = vec![lobe(0.05, [0.005; 2], 1.5), lobe(0.06, [0.02; 2], 1.5)];
     let sheeting = Sheeting { lobes, ..Sheeting::default() };
     let found = fit(&values_of(&sheeting, &grid(&[0.0])), &FitOptions::default()).unwrap();
     assert_eq!(found.form.lobes, 2);

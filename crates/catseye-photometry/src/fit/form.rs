@@ -15,11 +15,12 @@ const LEAST_STRENGTH: f64 = 1e-7;
 /// 0.14 and roughnesses of 0.003 to 0.02.
 const STRENGTH_PRIOR: [f64; 2] = [0.05, 5.0];
 const ROUGHNESS_PRIOR: [f64; 2] = [0.008, 2.5];
-/// Exponents of the cosine; a negative one needs a knee, or the lobe would gain light towards the horizon.
-const POWER: [f64; 2] = [0.0, 40.0];
+/// Exponents of the cosine. What a surface catches falls with the cosine, so R_A falls at least as fast; a slower fall
+/// would glow towards the horizon. Beside a knee, which ends that, the exponent may be negative.
+const POWER: [f64; 2] = [1.0, 40.0];
 const POWER_BESIDE_KNEE: f64 = -3.0;
-/// Squared sine at the knee: 6 to 90 degrees. A steeper knee than the steepest is an edge on the material.
-const KNEE_POSITION: [f64; 2] = [0.01, 1.0];
+/// Squared tangent at the knee: 6 to 63 degrees. A steeper knee than the steepest is an edge on the material.
+const KNEE_POSITION: [f64; 2] = [0.01, 4.0];
 const KNEE_STEEPNESS: [f64; 2] = [1.0, 8.0];
 
 /// How a lobe's strength may depend on the entrance angle.
@@ -159,7 +160,7 @@ impl Form {
             unknowns.push(Unknown { meaning, bounds: [least, POWER[1]], prior: [1.0, 3.0] });
         }
         if knee {
-            unknowns.push(log(Meaning::Position(owner), KNEE_POSITION, [0.5, 2.0]));
+            unknowns.push(log(Meaning::Position(owner), KNEE_POSITION, [0.7, 2.0]));
             unknowns.push(log(Meaning::Steepness(owner), KNEE_STEEPNESS, [4.0, 3.0]));
         }
     }
