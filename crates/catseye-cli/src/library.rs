@@ -3,7 +3,10 @@
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use catseye::Model;
 use catseye_materialx::{Document, Library, Material, SearchPath};
+
+use crate::args::ModelArg;
 
 /// Where MaterialX's libraries and the files of documents are.
 #[derive(Debug, clap::Args)]
@@ -32,5 +35,38 @@ impl LibraryArgs {
             eprintln!("catseye: warning: {warning}");
         }
         Ok(material)
+    }
+}
+
+/// The material that a verb is about.
+#[derive(Debug, clap::Args)]
+pub(crate) struct MaterialArgs {
+    /// MaterialX document with the material
+    #[arg(value_name = "MATERIAL.mtlx")]
+    document: PathBuf,
+    /// Name of the surface material, where the document has several
+    #[arg(long, value_name = "NAME")]
+    material: Option<String>,
+    #[command(flatten)]
+    library: LibraryArgs,
+    /// Which lobe reflects
+    #[arg(long, value_enum, default_value_t)]
+    model: ModelArg,
+}
+
+impl MaterialArgs {
+    /// Reads the material.
+    pub(crate) fn load(&self) -> anyhow::Result<Material> {
+        self.library.material(&self.document, self.material.as_deref())
+    }
+
+    /// The lobe that reflects.
+    pub(crate) fn model(&self) -> Model {
+        self.model.0
+    }
+
+    /// The document as the user named it.
+    pub(crate) fn name(&self) -> String {
+        self.document.display().to_string()
     }
 }

@@ -9,6 +9,8 @@ use catseye_photometry::{
 use catseye_render::Probe;
 use clap::ValueEnum;
 
+use crate::failure::Usage;
+
 /// What is made of three colour channels.
 ///
 /// Photometers measure in illuminant A; a material that is given in three channels can't say what changes in that light.
@@ -34,6 +36,14 @@ impl Channel {
             Self::B => b,
         }
     }
+}
+
+/// Refuses an `--area-m2` that is none.
+pub(crate) fn check_area(area_m2: Option<f64>) -> anyhow::Result<()> {
+    if area_m2.is_some_and(|area| !(area > 0.0 && area.is_finite())) {
+        bail!(Usage("--area-m2 must be above 0".to_owned()));
+    }
+    Ok(())
 }
 
 /// A material on a goniometer, in closed form: source and receiver are points, far away.

@@ -13,6 +13,7 @@ use clap::ValueEnum;
 use crate::failure::Usage;
 use crate::fitting::{Outcome, Subject, page};
 use crate::output::Output;
+use crate::photometer::check_area;
 use crate::{help, report};
 
 /// Percent by which a model of a measured BRDF may be off on average: what three lobes make of real tapes.
@@ -179,9 +180,7 @@ impl Args {
             FitModel::Reciprocal => Model::Reciprocal,
             FitModel::BackVector => Model::BackVector,
         };
-        if self.area_m2.is_some_and(|area| !(area > 0.0 && area.is_finite())) {
-            bail!(Usage("--area-m2 must be above 0".to_owned()));
-        }
+        check_area(self.area_m2)?;
         Ok(FitOptions {
             model,
             lobes,

@@ -11,11 +11,10 @@ use catseye_photometry::{Need, Row, Table};
 use catseye_render::{Estimate, Probe};
 use serde_json::{Map, Value, json};
 
-use crate::args::ModelArg;
 use crate::failure::Usage;
-use crate::library::LibraryArgs;
+use crate::library::MaterialArgs;
 use crate::output::Output;
-use crate::photometer::{Channel, Photometer};
+use crate::photometer::{Channel, Photometer, check_area};
 use crate::traced::{self, Traced};
 use crate::{help, report, values};
 
@@ -32,23 +31,14 @@ const ENTRANCES_DEG: [&str; 5] = ["-4", "5", "20", "30", "40"];
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::measure())]
 pub(crate) struct Args {
-    /// MaterialX document with the material to measure
-    #[arg(value_name = "MATERIAL.mtlx")]
-    document: PathBuf,
+    #[command(flatten)]
+    subject: MaterialArgs,
     /// CSV table of the geometries, `-` for standard input [default: those of the standards for sheeting]
     #[arg(long, value_name = "TABLE.csv", conflicts_with = "standard")]
     geometry: Option<PathBuf>,
     /// Measure at the geometries of a standard or class (see `catseye standards list`), or of a table with values
     #[arg(long, value_name = "NAME|TABLE.csv")]
     standard: Option<String>,
-    /// Name of the surface material, where the document has several
-    #[arg(long, value_name = "NAME")]
-    material: Option<String>,
-    #[command(flatten)]
-    library: LibraryArgs,
-    /// Which lobe reflects
-    #[arg(long, value_enum, default_value_t)]
-    model: ModelArg,
     /// What is made of the three colour channels
     #[arg(long, value_enum, default_value_t)]
     channel: Channel,
@@ -79,12 +69,10 @@ pub(crate) struct Args {
 
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
-        if self.area_m2.is_some_and(|area| !(area > 0.0 && area.is_finite())) {
-            bail!(Usage("--area-m2 must be above 0".to_owned()));
-        }
+        check_area(self.area_m2)?;
         let output = self.output.as_deref().map(Output::new).transpose()?;
-        let material = self.library.material(&self.document, self.material.as_deref())?;
-        let probe = Probe::new(&material, self.model.0)?;
+        let material = self.subject.load()?;
+        let probe = Probe::new(&material, self.subject.model())?;
         let photometer = Photometer { probe, channel: self.channel, area: self.area_m2 };
         let text = match self.verdict {
             true => self.judge(&photometer)?,
@@ -104,7 +92,8 @@ impl Args {
 
     /// The rows with the columns `model` and `standard_error`.
     fn trace(&self, material: &Material) -> anyhow::Result<String> {
-        let (model, channel, area, samples) = (self.model.0, self.channel, self.area_m2, self.samples);
+        let (model, channel, area, samples) =
+            (self.subject.model(), self.channel, self.area_m2, self.samples);
         let traced = Traced { material, model, channel, area, samples };
         self.answer(["model", "standard_error"], |row| {
             let Estimate { value, standard_error } = traced.measure(row.quantity, &row.geometry())?;

@@ -6,14 +6,13 @@ use std::path::PathBuf;
 use std::str::FromStr;
 
 use anyhow::bail;
-use catseye_photometry::openmaterial::{Band, BrdfTable, Metadata, write_material};
+use catseye_photometry::openmaterial::{Assumption, Band, BrdfTable, Metadata, write_material};
 use catseye_photometry::{Geometry, Goniometer, Quantity};
 use catseye_render::Probe;
 use serde_json::json;
 
-use crate::args::ModelArg;
 use crate::failure::Usage;
-use crate::library::LibraryArgs;
+use crate::library::MaterialArgs;
 use crate::output::Output;
 use crate::photometer::{Channel, Photometer};
 use crate::{help, report};
@@ -26,30 +25,21 @@ use crate::{help, report};
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::OPENMATERIAL)]
 pub(crate) struct Args {
-    /// MaterialX document with the material
-    #[arg(value_name = "MATERIAL.mtlx")]
-    document: PathBuf,
+    #[command(flatten)]
+    subject: MaterialArgs,
     /// File to write, .xomp; the table's name is made from it
     #[arg(short, long, value_name = "OUT.xomp")]
     output: PathBuf,
     /// Observation angle of the coefficient, in degrees
-    #[arg(long, value_name = "DEG", default_value_t = 0.2)]
+    #[arg(long, value_name = "DEG", default_value_t = Assumption::default().observation_deg)]
     observation_deg: f64,
     /// Entrance angle of the coefficient, in degrees
-    #[arg(long, value_name = "DEG", default_value_t = -4.0, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", default_value_t = Assumption::default().entrance_deg, allow_negative_numbers = true)]
     entrance_deg: f64,
     /// Light of this wavelength in nanometres comes back so many times as much as visible light, for lidar for instance: 905=0.3.
     /// May be given several times; colours say nothing of it
     #[arg(long = "tint", value_name = "NM=FACTOR")]
     tints: Vec<Tint>,
-    /// Name of the surface material, where the document has several
-    #[arg(long, value_name = "NAME")]
-    material: Option<String>,
-    #[command(flatten)]
-    library: LibraryArgs,
-    /// Which lobe reflects
-    #[arg(long, value_enum, default_value_t)]
-    model: ModelArg,
     /// Print what was written as JSON
     #[arg(long)]
     json: bool,
@@ -77,8 +67,8 @@ impl Args {
         let table_path = self.table_path()?;
         let output = Output::new(&self.output)?;
         let table_output = Output::new(&table_path)?;
-        let material = self.library.material(&self.document, self.material.as_deref())?;
-        let probe = Probe::new(&material, self.model.0)?;
+        let material = self.subject.load()?;
+        let probe = Probe::new(&material, self.subject.model())?;
         let photometer = Photometer { probe, channel: Channel::Luminance, area: None };
 
         let Self { observation_deg, entrance_deg, .. } = *self;
@@ -91,7 +81,7 @@ impl Args {
         }
         let r_a = photometer.measure(Quantity::RetroReflectionCoefficient, &geometry)?;
         let at = format!("{observation_deg} deg observation and {entrance_deg} deg entrance");
-        let sources = format!("computed from {} by catseye: R_A at {at}", self.document.display());
+        let sources = format!("computed from {} by catseye: R_A at {at}", self.subject.name());
         let metadata = Metadata::named(&material.name);
         let uri = table_path.file_name().and_then(OsStr::to_str);
         let scalar = write_material(&metadata, r_a, &sources, uri)?;
@@ -135,7 +125,7 @@ impl Args {
                 0.0
             })
         };
-        let sources = format!("computed from {} by catseye", self.document.display());
+        let sources = format!("computed from {} by catseye", self.subject.name());
         let text = table.write(metadata, &sources, brdf)?;
         match failure.into_inner() {
             Some(error) => Err(error),
