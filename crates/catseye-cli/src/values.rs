@@ -20,13 +20,17 @@ pub(crate) fn read(path: &Path, need: Need) -> anyhow::Result<Table> {
     Ok(Table::parse(&bytes, "<stdin>", need)?)
 }
 
-/// The classes that a name means, or the one that a file is: a path that exists, ends in `.csv` or is `-`.
-pub(crate) fn classes(name: &str) -> anyhow::Result<Vec<Class>> {
+/// Whether a name is that of a file: a path that exists, ends in `.csv` or is `-`.
+pub(crate) fn is_table(name: &str) -> bool {
     let path = Path::new(name);
     let is_csv = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
-    let is_file = name == "-" || is_csv || path.is_file();
-    if is_file {
-        let table = read(path, Need::Values)?;
+    name == "-" || is_csv || path.is_file()
+}
+
+/// The classes that a name means, or the one that a file is.
+pub(crate) fn classes(name: &str) -> anyhow::Result<Vec<Class>> {
+    if is_table(name) {
+        let table = read(Path::new(name), Need::Values)?;
         return Ok(Class::from_table(table).into_iter().collect());
     }
     Ok(Catalogue::embedded()?.matching(name)?.into_iter().cloned().collect())

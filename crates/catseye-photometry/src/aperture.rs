@@ -23,6 +23,7 @@ use std::f64::consts::TAU;
 use catseye::Vec3;
 
 use crate::Error;
+use crate::geometry::cross;
 
 /// The widest aperture, radians: the rule is made for small angles.
 const MAX_DIAMETER: f64 = 0.35;
@@ -172,10 +173,6 @@ fn common_normal(wo: Vec3<f64>, wi: Vec3<f64>) -> Vec3<f64> {
     }
     let other = if wo.x.abs() < 0.5 { Vec3::new(1.0, 0.0, 0.0) } else { Vec3::new(0.0, 1.0, 0.0) };
     cross(wo, other).normalized()
-}
-
-fn cross(a: Vec3<f64>, b: Vec3<f64>) -> Vec3<f64> {
-    Vec3::new(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
 }
 
 /// Both disks' radii.

@@ -156,6 +156,18 @@ impl Geometry {
         self.wo.z > 0.0 && self.wi.z > 0.0
     }
 
+    /// The offset d of the halfway-vector disk (docs/theory.md, section 2), times the sum of the cosines.
+    pub(crate) fn scaled_offset(&self) -> [f64; 2] {
+        let Self { wo, wi } = *self;
+        [wo.z * wi.x - wi.z * wo.x, wo.z * wi.y - wi.z * wo.y]
+    }
+
+    /// The direction of the offset up to its sign, in `[0, pi)`: that in which the sample is turned to the instrument.
+    pub(crate) fn offset_plane(&self) -> f64 {
+        let [x, y] = self.scaled_offset();
+        y.atan2(x).rem_euclid(std::f64::consts::PI)
+    }
+
     /// The geometry with the datum axis turned by `angle` about the retroreflector axis.
     fn with_datum_turned(wo: Vec3<f64>, wi: Vec3<f64>, angle: f64) -> Self {
         let (sin, cos) = angle.sin_cos();
@@ -284,6 +296,7 @@ fn difference(a: Vec3<f64>, b: Vec3<f64>) -> Vec3<f64> {
     Vec3::new(a.x - b.x, a.y - b.y, a.z - b.z)
 }
 
-fn cross(a: Vec3<f64>, b: Vec3<f64>) -> Vec3<f64> {
+/// The vector product.
+pub(crate) fn cross(a: Vec3<f64>, b: Vec3<f64>) -> Vec3<f64> {
     Vec3::new(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
 }

@@ -22,6 +22,7 @@ mod aperture;
 pub mod brdf;
 mod cells;
 mod colour;
+mod digits;
 mod entrance;
 mod error;
 pub mod fit;
@@ -39,6 +40,7 @@ pub mod verdict;
 
 pub use aperture::{ApertureRule, Apertures};
 pub use colour::{Colour, ColourError, LUMINANCE, luminance};
+pub use digits::significant;
 pub use entrance::{EntranceFactor, Knee, LEAST_COSINE};
 pub use error::Error;
 pub use geometry::{Geometry, Goniometer, Intrinsic, RoadMarking};

@@ -7,7 +7,8 @@ use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesText, Event};
 
 use crate::colour::Colour;
-use crate::entrance::{DEEPEST_FALL, LEAST_COSINE};
+use crate::digits::significant;
+use crate::entrance::{DEEPEST_FALL, EntranceFactor, LEAST_COSINE};
 use crate::sheeting::Sheeting;
 
 /// What a document says beside the numbers.
@@ -77,11 +78,11 @@ pub fn to_mtlx(sheeting: &Sheeting, text: &MaterialText<'_>) -> String {
 
 /// The nodes of the entrance factors; for each lobe the name of its factor, where it has one.
 fn entrance_nodes(document: &mut Document, sheeting: &Sheeting) -> Vec<Option<String>> {
-    let mut made: Vec<(crate::EntranceFactor, String)> = Vec::new();
+    let mut made: Vec<(EntranceFactor, String)> = Vec::new();
     let mut names = Vec::new();
     for lobe in &sheeting.lobes {
         let factor = lobe.entrance;
-        if factor == crate::EntranceFactor::default() {
+        if factor == EntranceFactor::default() {
             names.push(None);
             continue;
         }
@@ -187,7 +188,7 @@ impl Document {
     }
 
     /// `cosine^power exp(-((1 / cosine^2 - 1) / position)^steepness)`.
-    fn entrance(&mut self, name: &str, factor: &crate::EntranceFactor) {
+    fn entrance(&mut self, name: &str, factor: &EntranceFactor) {
         let power = if factor.knee.is_some() { format!("{name}_power") } else { name.to_owned() };
         self.node("power", &power, "float", &[in1("entrance_cosine"), in2(factor.power)]);
         let Some(knee) = factor.knee else { return };
@@ -245,12 +246,9 @@ fn rgb(colour: Colour, luminance: f64) -> String {
     colour.of_luminance(luminance).map(|x| number(x.min(1.0))).join(", ")
 }
 
-/// Six significant digits, in the shortest form: a hundred times finer than any data sheet.
+/// Six digits: a hundred times finer than any data sheet.
 fn number(x: f64) -> String {
-    let digits = if x == 0.0 { 0 } else { 5 - x.abs().log10().floor() as i32 };
-    let digits = usize::try_from(digits.clamp(0, 12)).unwrap_or(0);
-    let text = format!("{x:.digits$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    significant(x, 6)
 }
 
 /// A MaterialX name: letters, digits and `_`, not beginning with a digit.

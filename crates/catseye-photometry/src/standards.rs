@@ -48,11 +48,10 @@ impl Class {
     /// The name for people, such as `FMVSS 108 Grade DOT-C2 white`; the id where the table has no words.
     #[must_use]
     pub fn title(&self) -> String {
-        let first = &self.rows()[0];
+        let [standard, class, colour] = self.words();
         // What follows a comma is of a single row: a position, a condition.
-        let class = first.class.split(", ").next().unwrap_or_default();
-        let words =
-            [first.standard.as_str(), class, &first.colour].into_iter().filter(|word| !word.is_empty());
+        let class = class.split(", ").next().unwrap_or_default();
+        let words = [standard, class, colour].into_iter().filter(|word| !word.is_empty());
         let title = words.collect::<Vec<_>>().join(" ");
         if title.is_empty() { self.id.clone() } else { title }
     }
@@ -65,8 +64,7 @@ impl Class {
 
     /// The same in the words of the standard.
     fn words(&self) -> [&str; 3] {
-        let first = &self.rows()[0];
-        [&first.standard, &first.class, &first.colour]
+        self.rows()[0].words()
     }
 }
 
@@ -156,7 +154,7 @@ fn narrowed<'a>(classes: &[&'a Class], text: &str, i: usize) -> Vec<&'a Class> {
 }
 
 /// Letters and digits alone, in lower case.
-fn plain(text: &str) -> String {
+pub(crate) fn plain(text: &str) -> String {
     text.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
 }
 

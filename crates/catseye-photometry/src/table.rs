@@ -18,6 +18,7 @@ use std::io::Read as _;
 use std::path::Path;
 
 use crate::cells::{Cells, Columns};
+use crate::standards::plain;
 use crate::{Error, Geometry, Goniometer, Quantity, Unit};
 
 /// Bytes of the largest table that is read: photometric tables have hundreds of rows, not millions.
@@ -96,6 +97,18 @@ impl Row {
         let angles =
             Goniometer::from_degrees(self.observation_deg, self.entrance_deg, 0.0, self.rotation_deg);
         Geometry::from(angles)
+    }
+
+    /// Standard, class and colour, empty where none is given.
+    #[must_use]
+    pub fn words(&self) -> [&str; 3] {
+        [&self.standard, &self.class, &self.colour]
+    }
+
+    /// Whether standard, class and colour together contain a text; case, spaces and signs don't matter.
+    #[must_use]
+    pub fn mentions(&self, text: &str) -> bool {
+        plain(&self.words().concat()).contains(&plain(text))
     }
 
     /// The value in the unit that it is written in.

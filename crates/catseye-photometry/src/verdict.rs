@@ -3,7 +3,7 @@
 use std::fmt;
 
 use crate::standards::Class;
-use crate::{Geometry, Limit, Quantity, Row};
+use crate::{Geometry, Limit, Quantity, Row, significant};
 
 /// Share of a limit that rounding may cost: 250 from cosines is not quite 250.
 const ROUNDING: f64 = 1e-9;
@@ -123,16 +123,6 @@ impl fmt::Display for Verdict<'_> {
         let failed = self.checks.iter().filter(|check| !check.is_met()).count();
         if failed > 1 { write!(f, " ({failed} of {} points)", self.checks.len()) } else { Ok(()) }
     }
-}
-
-/// A positive number with some significant digits, without an exponent.
-fn significant(value: f64, digits: i32) -> String {
-    if !(value > 0.0 && value.is_finite()) {
-        return value.to_string();
-    }
-    let decimals = (digits - 1 - value.log10().floor() as i32).max(0) as usize;
-    let text = format!("{value:.decimals$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
 }
 
 #[cfg(test)]

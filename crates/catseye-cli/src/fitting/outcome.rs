@@ -5,6 +5,7 @@ use std::fmt::Write as _;
 use catseye_photometry::brdf::{Metrics, metrics};
 use catseye_photometry::fit::{Aim, EntranceKind, Fit, Form, Observation};
 use catseye_photometry::half_power::half_power_angle;
+use catseye_photometry::significant;
 use serde_json::{Value, json};
 
 use super::Subject;
@@ -200,12 +201,7 @@ pub(crate) fn percent(share: f64) -> String {
     format!("{:.1} %", 100.0 * share)
 }
 
-/// Four significant digits.
+/// Four digits.
 pub(crate) fn short(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return value.to_string();
-    }
-    let digits = (3 - value.abs().log10().floor() as i32).clamp(0, 9) as usize;
-    let text = format!("{value:.digits$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    significant(value, 4)
 }

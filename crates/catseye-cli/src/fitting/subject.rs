@@ -6,7 +6,7 @@ use anyhow::{Context as _, anyhow, bail};
 use catseye_photometry::brdf::{Brdf, Cosine, Selection};
 use catseye_photometry::fit::{Aim, Observation};
 use catseye_photometry::openmaterial::{Assumption, OpenMaterial};
-use catseye_photometry::standards::Catalogue;
+use catseye_photometry::standards::{Catalogue, Class};
 use catseye_photometry::{ApertureRule, Colour, Limit, Need, Quantity, Row, Table};
 
 use crate::values;
@@ -37,10 +37,9 @@ impl Subject {
         let path = Path::new(name);
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
         match ending.as_str() {
-            "csv" => Self::of_table(&values::read(path, Need::Values)?, only),
             "xomp" => Self::of_open_material(path),
             "dat" | "alta" | "binary" => Self::of_brdf(path, cosine),
-            _ if name == "-" || path.is_file() => Self::of_table(&values::read(path, Need::Values)?, only),
+            _ if values::is_table(name) => Self::of_table(&values::read(path, Need::Values)?, only),
             _ => Self::of_table(Catalogue::embedded()?.find(name)?.table(), only),
         }
     }
@@ -71,18 +70,14 @@ impl Subject {
     }
 
     fn of_table(table: &Table, only: Option<&str>) -> anyhow::Result<Self> {
-        let wanted = only.map(plain);
-        let rows = table.rows().iter();
-        let rows: Vec<Row> = rows
-            .filter(|row| wanted.as_ref().is_none_or(|wanted| plain(&title(row)).contains(wanted)))
-            .cloned()
-            .collect();
+        let rows = table.rows().iter().filter(|row| only.is_none_or(|only| row.mentions(only)));
+        let rows: Vec<Row> = rows.cloned().collect();
         let Some(first) = rows.first() else {
             bail!(
                 "{}: no row is of {:?}; there are: {}",
                 table.name(),
                 only.unwrap_or_default(),
-                titles(table.rows())
+                materials(table.rows())
             );
         };
         // The tables that come with the program have a column that names the class; others say it in two.
@@ -92,10 +87,11 @@ impl Subject {
             None => vec![row.class.clone(), row.colour.clone()],
         };
         if only.is_none() && rows.iter().any(|row| class(row) != class(first)) {
-            bail!("{}: holds several materials; choose one with --only: {}", table.name(), titles(&rows));
+            bail!("{}: holds several materials; choose one with --only: {}", table.name(), materials(&rows));
         }
         let name = table.name().to_owned();
-        let title = Some(title(first)).filter(|title| !title.is_empty()).unwrap_or_else(|| name.clone());
+        let class = Class::from_table(Table::from_rows(&name, table.header(), rows.clone()));
+        let title = class.map_or_else(|| name.clone(), |class| class.title());
         Ok(Self { name, title, rows, brdf: None, roughness: None, remarks: Vec::new() })
     }
 
@@ -174,19 +170,12 @@ impl Subject {
     }
 }
 
-fn title(row: &Row) -> String {
-    let words = [&row.standard, &row.class, &row.colour];
-    words.into_iter().filter(|word| !word.is_empty()).cloned().collect::<Vec<_>>().join(" ")
-}
-
-fn titles(rows: &[Row]) -> String {
-    let mut titles: Vec<String> = rows.iter().map(title).collect();
-    titles.sort();
-    titles.dedup();
-    titles.join("; ")
-}
-
-/// Letters and digits alone, in lower case.
-fn plain(text: &str) -> String {
-    text.chars().filter(|c| c.is_alphanumeric()).flat_map(char::to_lowercase).collect()
+/// Standard, class and colour of the materials among some rows, each once.
+fn materials(rows: &[Row]) -> String {
+    let words =
+        |row: &Row| row.words().into_iter().filter(|word| !word.is_empty()).collect::<Vec<_>>().join(" ");
+    let mut names: Vec<String> = rows.iter().map(words).collect();
+    names.sort();
+    names.dedup();
+    names.join("; ")
 }

@@ -4,6 +4,7 @@ use anyhow::bail;
 use catseye_photometry::half_power::{
     half_power_angle, peak_coefficient, relative_coefficient, roughness_from_half_power_angle,
 };
+use catseye_photometry::significant;
 use clap::ArgGroup;
 use serde_json::json;
 
@@ -98,12 +99,7 @@ impl Args {
     }
 }
 
-/// Six significant digits, more than any photometer has.
+/// Six digits, more than any photometer has.
 fn rounded(value: f64) -> String {
-    if value == 0.0 || !value.is_finite() {
-        return value.to_string();
-    }
-    let digits = (5 - value.abs().log10().floor() as i32).max(0) as usize;
-    let text = format!("{value:.digits$}");
-    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+    significant(value, 6)
 }

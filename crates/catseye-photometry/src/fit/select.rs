@@ -24,11 +24,7 @@ impl Span {
     pub(crate) fn of(observations: &[Observation]) -> Self {
         let seen: Vec<Geometry> =
             observations.iter().filter(|row| row.is_retro()).map(Observation::centre).collect();
-        let plane = |Geometry { wo, wi }: &Geometry| {
-            let [x, y] = [wo.z * wi.x - wi.z * wo.x, wo.z * wi.y - wi.z * wo.y];
-            y.atan2(x).rem_euclid(core::f64::consts::PI)
-        };
-        let planes = distinct(seen.iter().map(plane));
+        let planes = distinct(seen.iter().map(Geometry::offset_plane));
         Self {
             observation: distinct(seen.iter().map(Geometry::observation)),
             entrance: distinct(seen.iter().map(Geometry::entrance)),

@@ -3,6 +3,7 @@
 use catseye::Vec3;
 
 use super::observation::{Aim, Observation};
+use crate::Geometry;
 
 /// Directions to the source that differ by less than this are one series of a table.
 const SAME_DIRECTION: f64 = 1e-6;
@@ -61,11 +62,11 @@ fn point(row: usize, observation: &Observation) -> Option<Point> {
     }
     let (wo, wi) = (view.wo, view.wi);
     let (sum, low, high) = (wo.z + wi.z, wo.z.min(wi.z), wo.z.max(wi.z));
-    let d = [wo.z * wi.x - wi.z * wo.x, wo.z * wi.y - wi.z * wo.y].map(|x| x / sum);
+    let geometry = Geometry { wo, wi };
+    let d = geometry.scaled_offset().map(|x| x / sum);
     let shared = view.factor * low / (high * high * sum);
-    let plane = d[1].atan2(d[0]).rem_euclid(core::f64::consts::PI);
     let u = -(-(d[0] * d[0] + d[1] * d[1])).ln_1p();
-    Some(Point { row, wi, plane, u, log: (observation.value / shared).ln() })
+    Some(Point { row, wi, plane: geometry.offset_plane(), u, log: (observation.value / shared).ln() })
 }
 
 impl Point {

@@ -119,24 +119,24 @@ fn solution(
     observations: &[Observation],
     channel_peak: f64,
 ) -> Option<Solution> {
-    let mut x = problem.x();
+    let (unknowns, mut x) = (form.unknowns(), problem.x());
     // Limits and the energy are penalties in the problem, and laws here; of the two the energy's is the higher.
-    let logs = log_ratios(&form.sheeting(&form.unknowns(), &x), observations)?;
+    let logs = log_ratios(&form.sheeting(&unknowns, &x), observations)?;
     let at_least = observations.iter().zip(&logs).filter(|(row, _)| row.aim == Aim::AtLeast);
     let missing = at_least.map(|(_, log)| LIMIT_MARGIN - log).fold(0.0, f64::max);
     let mut strengthen = |by: f64| {
-        for (x, unknown) in x.iter_mut().zip(form.unknowns()) {
+        for (x, unknown) in x.iter_mut().zip(&unknowns) {
             if matches!(unknown.meaning, Meaning::Strength(_) | Meaning::Diffuse) {
                 *x += by;
             }
         }
-        form.sheeting(&form.unknowns(), &x)
+        form.sheeting(&unknowns, &x)
     };
     let albedo = 1.0 + excess(&strengthen(missing), channel_peak);
     if albedo > 1.0 + ENERGY_SLACK {
         strengthen(-albedo.ln());
     }
-    let sheeting = form.sheeting(&form.unknowns(), &x);
+    let sheeting = form.sheeting(&unknowns, &x);
     let log_ratios = log_ratios(&sheeting, observations)?;
     let misses = observations.iter().zip(&log_ratios).map(|(row, &log)| miss(row.aim, log));
     let errors = observations.iter().zip(&log_ratios).map(|(row, &log)| aim_weight(row.aim, log) * log);

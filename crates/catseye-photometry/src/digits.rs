@@ -1,0 +1,33 @@
+//! Numbers as people and documents read them.
+
+/// A number with some significant digits, at least 1, without an exponent and without zeros at the end. 0, infinities and
+/// NaN as Rust prints them.
+#[must_use]
+pub fn significant(value: f64, digits: i32) -> String {
+    if value == 0.0 || !value.is_finite() {
+        return value.to_string();
+    }
+    let decimals = (digits - 1 - value.abs().log10().floor() as i32).max(0) as usize;
+    let text = format!("{value:.decimals$}");
+    if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.').to_owned() } else { text }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::significant;
+
+    #[test]
+    fn digits_are_counted_from_the_first_that_is_not_zero() {
+        let cases = [
+            (0.012_345, 3, "0.0123"),
+            (-2.5, 4, "-2.5"),
+            (1234.5, 2, "1234"),
+            (300.0, 3, "300"),
+            (0.0, 3, "0"),
+        ];
+        for (value, digits, text) in cases {
+            assert_eq!(significant(value, digits), text);
+        }
+        assert_eq!(significant(f64::INFINITY, 3), "inf");
+    }
+}
