@@ -12,7 +12,7 @@ pub(crate) fn run() -> Result<()> {
         run_cargo("fmt --all --check")?;
     }
     if has_cargo("clippy", "run `rustup component add clippy`")? {
-        run_cargo("clippy --workspace --all-targets -- -D warnings")?;
+        run_cargo("clippy --release --workspace --all-targets -- -D warnings")?;
     }
     document()?;
     without_std()
@@ -20,13 +20,13 @@ pub(crate) fn run() -> Result<()> {
 
 /// Builds the documentation, private items too; a warning is an error.
 fn document() -> Result<()> {
-    let args = "doc --workspace --no-deps --document-private-items";
+    let args = "doc --release --workspace --no-deps --document-private-items";
     tool::run(cargo(args).env("RUSTDOCFLAGS", "-D warnings"), &format!("cargo {args}"))
 }
 
 /// Checks the BSDF without std: for a target that has none where one is installed, else for this machine.
 fn without_std() -> Result<()> {
-    let mut args = "check -p catseye --no-default-features --features libm".to_owned();
+    let mut args = "check --release -p catseye --no-default-features --features libm".to_owned();
     let installed = output(Command::new("rustup").args(["target", "list", "--installed"]));
     if let Some(target) = installed.iter().flat_map(|list| list.lines()).find(|line| is_bare(line)) {
         args += &format!(" --target {target}");

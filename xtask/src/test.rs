@@ -10,11 +10,11 @@ use crate::tool::{cargo, output, run_cargo};
 /// The generated files are among the tests: see [`crate::generated`].
 pub(crate) fn run() -> Result<()> {
     lint::run()?;
-    run_cargo("test --workspace --doc")?;
+    run_cargo("test --release --workspace --doc")?;
     // nextest runs the tests of all crates at once and sums them up in one line; without it nothing else is lost.
     if output(&mut cargo("nextest --version")).is_some() {
-        run_cargo("nextest run --workspace --no-fail-fast")
+        run_cargo("nextest run --release --workspace --no-fail-fast")
     } else {
-        run_cargo("test --workspace --tests --no-fail-fast")
+        run_cargo("test --release --workspace --tests --no-fail-fast")
     }
 }
