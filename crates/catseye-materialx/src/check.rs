@@ -9,16 +9,18 @@ use std::{
 
 use crate::{
     compile::{bind_pattern, find_picture},
-    document::{parse_bytes, read_root},
-    element::Element,
     error::{Error, Place, listed, quoted},
-    files::SearchPath,
     graph::{Feed, Graph, NodeRef, ROOT, ScopeId},
-    include::Includer,
     input::{check_connection, constant, unknown_category},
     library::{Definition, Library},
     node::{Node, has_category, is_known},
     pattern::signature,
+    text::{
+        element::Element,
+        files::SearchPath,
+        include::Includer,
+        root::{parse_bytes, read_root},
+    },
     texture::check_size,
     value::{ColorSpace, Type},
 };

@@ -8,13 +8,12 @@ use std::{
 };
 
 use crate::{
-    element::Element,
     error::{Error, listed, quoted},
-    files::Refusal,
     graph::{Feed, Graph, MOST_PROBLEMS, NodeRef, ScopeId},
     input::{check_connection, color_space, constant, no_output, output_type, unknown_category},
     library::Library,
     pattern::{Geometry, Lowering, Operand, Parameter, Port, Signature, signature, signatures},
+    text::{element::Element, files::Refusal},
     texture::Texture,
     value::{COLOR_SPACES, ColorSpace, Type, Value},
 };

@@ -7,9 +7,9 @@ use std::{
 };
 
 use crate::{
-    element::Element,
     error::{Error, quoted},
     library::{Definition, Definitions, Library},
+    text::element::Element,
 };
 
 /// Nodegraphs and definitions in use, each once for every place that uses it: nested ones could make 2^30.

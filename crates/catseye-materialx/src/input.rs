@@ -3,12 +3,12 @@
 use catseye::{ParamError, Params};
 
 use crate::{
-    element::Element,
     error::{Error, listed, plain, quoted},
     graph::{Feed, Graph, NodeRef},
     nodedef::{Accepts, InputDef, InputDefault},
     pattern::{signature, signatures},
     template::as_written,
+    text::element::Element,
     value::{COLOR_SPACES, ColorSpace, Type, Value},
 };
 

@@ -7,10 +7,12 @@ use std::{
 };
 
 use crate::{
-    document::{parse_bytes, read_root},
-    element::Element,
     error::Error,
-    files::SearchPath,
+    text::{
+        element::Element,
+        files::SearchPath,
+        root::{parse_bytes, read_root},
+    },
 };
 
 /// Files of all libraries together; MaterialX 1.39.5 has 30 that are read here.

@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 
 use crate::{
-    element::Element,
     error::{Error, quoted},
+    text::element::Element,
 };
 
 /// A look of a document.

@@ -5,7 +5,6 @@ use std::ptr;
 use crate::{
     closure::{Material, ScatterMode},
     compile::PatternCompiler,
-    element::Element,
     error::{Error, listed},
     graph::{Feed, Graph, NodeRef},
     input::unknown_category,
@@ -14,6 +13,7 @@ use crate::{
     nodedef::{Accepts, InputDefault, Kind},
     pattern::{Geometry, Op},
     template::{Leaf, Patterns, Slot, SurfaceTemplate, Template},
+    text::element::Element,
     value::{Type, Value},
 };
 

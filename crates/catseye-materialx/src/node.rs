@@ -1,11 +1,11 @@
 //! A built-in BSDF or shader node with its definition, its inputs checked against it.
 
 use crate::{
-    element::Element,
     error::{Error, Place, listed, quoted},
     graph::{Feed, Graph, MOST_PROBLEMS, NodeRef},
     input::{feed, unknown_category},
     nodedef::{InputDef, NODE_DEFS, NodeDef},
+    text::element::Element,
     value::Type,
 };
 

@@ -5,9 +5,11 @@ use std::sync::Arc;
 use roxmltree::{Node, ParsingOptions};
 
 use crate::{
-    element::{Attribute, Element, Inherited, Span},
     error::{Error, one_line},
-    source::Source,
+    text::{
+        element::{Attribute, Element, Inherited, Span},
+        source::Source,
+    },
 };
 
 /// Elements, texts and comments of a document. MaterialX's own libraries together have about 30,000.

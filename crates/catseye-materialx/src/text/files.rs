@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use crate::source::Source;
+use crate::text::source::Source;
 
 /// Largest document that is read; MaterialX's largest is below 1 MiB.
 pub(crate) const MAX_BYTES: usize = 16 << 20;

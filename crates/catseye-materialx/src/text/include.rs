@@ -3,10 +3,12 @@
 use std::{collections::HashSet, path::PathBuf};
 
 use crate::{
-    document::read_root,
-    element::Element,
     error::{Error, quoted},
-    files::{Refusal, SearchPath},
+    text::{
+        element::Element,
+        files::{Refusal, SearchPath},
+        root::read_root,
+    },
 };
 
 /// Files that one document may include, directly and through others.

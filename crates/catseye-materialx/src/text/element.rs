@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use crate::{
     error::{Error, Place, quoted},
-    source::Source,
+    text::source::Source,
 };
 
 /// Where an element starts.
