@@ -14,14 +14,14 @@ use crate::{
     input::{check_connection, constant, unknown_category},
     library::{Definition, Library},
     node::{Node, has_category, is_known},
-    pattern::signature,
+    nodes::signature,
+    program::texture::check_size,
     text::{
         element::Element,
         files::SearchPath,
         include::Includer,
         root::{parse_bytes, read_root},
     },
-    texture::check_size,
     value::{ColorSpace, Type},
 };
 

@@ -12,9 +12,9 @@ use crate::{
     graph::{Feed, Graph, MOST_PROBLEMS, NodeRef, ScopeId},
     input::{check_connection, color_space, constant, no_output, output_type, unknown_category},
     library::Library,
-    pattern::{Geometry, Lowering, Operand, Parameter, Port, Signature, signature, signatures},
+    nodes::{Lowering, Operand, Parameter, Port, Signature, signature, signatures},
+    program::{Geometry, texture::Texture},
     text::{element::Element, files::Refusal},
-    texture::Texture,
     value::{COLOR_SPACES, ColorSpace, Type, Value},
 };
 

@@ -5,8 +5,10 @@ use catseye::{ParamError, Params};
 use crate::{
     error::{Error, listed, plain, quoted},
     graph::{Feed, Graph, NodeRef},
-    nodedef::{Accepts, InputDef, InputDefault},
-    pattern::{signature, signatures},
+    nodes::{
+        closures::{Accepts, InputDef, InputDefault},
+        signature, signatures,
+    },
     template::as_written,
     text::element::Element,
     value::{COLOR_SPACES, ColorSpace, Type, Value},

@@ -4,7 +4,7 @@ use crate::{
     error::{Error, Place, listed, quoted},
     graph::{Feed, Graph, MOST_PROBLEMS, NodeRef},
     input::{feed, unknown_category},
-    nodedef::{InputDef, NODE_DEFS, NodeDef},
+    nodes::closures::{InputDef, NODE_DEFS, NodeDef},
     text::element::Element,
     value::Type,
 };

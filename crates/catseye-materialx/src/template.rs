@@ -7,8 +7,8 @@ use catseye::{ParamError, Params};
 use crate::{
     closure::{Closure, ScatterMode, Surface},
     error::Error,
-    nodedef::Accepts,
-    pattern::{Lanes, Program, ShadingPoint},
+    nodes::closures::Accepts,
+    program::{Lanes, Program, ShadingPoint},
 };
 
 /// An input of `N` numbers.

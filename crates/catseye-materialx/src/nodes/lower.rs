@@ -1,8 +1,11 @@
 //! From pattern nodes to instructions.
 
-use super::{Assembler, Fallback, Geometry, Lanes, Op, Signature};
+use super::{Fallback, Signature};
 use crate::{
-    texture::{Filter, Wrap},
+    program::{
+        Assembler, Geometry, Lanes, Op,
+        texture::{Filter, Wrap},
+    },
     value::Type,
 };
 

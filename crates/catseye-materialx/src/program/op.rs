@@ -2,8 +2,10 @@
 
 use std::sync::Arc;
 
-use super::{Lanes, ShadingPoint, noise};
-use crate::texture::{Filter, Texture, Wrap};
+use super::{
+    Lanes, ShadingPoint, noise,
+    texture::{Filter, Texture, Wrap},
+};
 
 /// What the geometry gives.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]

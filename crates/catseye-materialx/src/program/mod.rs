@@ -4,18 +4,14 @@
 //! instructions are stored once, and those without the geometry among their sources are computed when the document is
 //! read.
 
-mod lower;
 mod noise;
 mod op;
-mod signature;
+pub(crate) mod texture;
 
 use std::{collections::HashMap, sync::Arc};
 
-pub(crate) use lower::{Lowering, Operand};
 pub(crate) use op::{Geometry, Op};
-pub(crate) use signature::{Fallback, Parameter, Port, Signature, signature, signatures};
-
-use crate::texture::Texture;
+use texture::Texture;
 
 /// A register's content: components beyond the value's width are 0.
 pub(crate) type Lanes = [f32; 4];

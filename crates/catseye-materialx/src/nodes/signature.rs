@@ -2,8 +2,7 @@
 //!
 //! Names, types and defaults are those of MaterialX 1.39.
 
-use super::Geometry;
-use crate::value::Type;
+use crate::{program::Geometry, value::Type};
 
 /// The types that an input may have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,0 +1,8 @@
+//! The known nodes: their inputs, and what patterns compute.
+
+pub(crate) mod closures;
+mod lower;
+mod signature;
+
+pub(crate) use lower::{Lowering, Operand};
+pub(crate) use signature::{Fallback, Parameter, Port, Signature, signature, signatures};
