@@ -8,12 +8,15 @@ use std::{
 };
 
 use crate::{
-    compile::{bind_pattern, find_picture},
+    color_space::ColorSpace,
+    compile::pattern::{bind_pattern, find_picture},
     error::{Error, Place, listed, quoted},
-    graph::{Feed, Graph, NodeRef, ROOT, ScopeId},
-    input::{check_connection, constant, unknown_category},
-    library::{Definition, Library},
-    node::{Node, has_category, is_known},
+    graph::{
+        Feed, Graph, NodeRef, ROOT, ScopeId,
+        input::{check_connection, constant, unknown_category},
+        library::{Definition, Library},
+        node::{Node, has_category, is_known},
+    },
     nodes::signature,
     program::texture::check_size,
     text::{
@@ -22,7 +25,7 @@ use crate::{
         include::Includer,
         root::{parse_bytes, read_root},
     },
-    value::{ColorSpace, Type},
+    value::Type,
 };
 
 /// Most problems that are reported for a document.

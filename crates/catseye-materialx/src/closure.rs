@@ -2,8 +2,6 @@
 
 use catseye::Params;
 
-use crate::template::Patterns;
-
 /// Which directions a dielectric closure scatters into: MaterialX's `scatter_mode`.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum ScatterMode {
@@ -163,35 +161,4 @@ pub struct Surface {
     pub opacity: f32,
     /// Radiance that it emits towards the viewer.
     pub emission: [f32; 3],
-}
-
-/// A surface material of a document.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Material {
-    /// The name of the `surfacematerial` node.
-    pub name: String,
-    /// The BSDF of its surface; where it varies, what it is at [`ShadingPoint::default`](crate::ShadingPoint).
-    pub bsdf: Closure,
-    /// Surface opacity, in `[0, 1]`; where it varies, as for `bsdf`.
-    pub opacity: f32,
-    /// Radiance that the surface emits; where it varies, as for `bsdf`.
-    pub emission: [f32; 3],
-    /// What the surface is at each point; `None` where it is the same everywhere.
-    pub patterns: Option<Patterns>,
-    /// What of the document is ignored or approximated, a line each.
-    pub warnings: Vec<String>,
-}
-
-impl Default for Material {
-    /// A surface that scatters nothing.
-    fn default() -> Self {
-        Self {
-            name: String::new(),
-            bsdf: Closure::None,
-            opacity: 1.0,
-            emission: [0.0; 3],
-            patterns: None,
-            warnings: Vec::new(),
-        }
-    }
 }

@@ -3,12 +3,14 @@
 use std::{path::Path, sync::Arc};
 
 use crate::{
-    closure::Material,
+    compile::surface::Builder,
     error::{Error, listed, quoted},
-    graph::{Graph, NodeRef},
-    library::Library,
-    look::{self, Look},
-    material::Builder,
+    graph::{
+        Graph, NodeRef,
+        library::Library,
+        look::{self, Look},
+    },
+    surface::Material,
     text::{
         element::Element,
         files::SearchPath,

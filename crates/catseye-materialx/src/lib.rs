@@ -57,27 +57,23 @@
 
 mod check;
 mod closure;
+mod color_space;
 mod compile;
 mod document;
 mod error;
 mod graph;
-mod input;
-mod library;
-mod look;
-mod material;
-mod node;
 mod nodes;
 mod program;
-mod template;
+mod surface;
 mod text;
 mod value;
 
 pub use check::{check, check_bytes};
-pub use closure::{Closure, Material, ScatterMode, Surface};
+pub use closure::{Closure, ScatterMode, Surface};
 pub use document::Document;
 pub use error::{Error, Place};
-pub use library::Library;
-pub use look::{Assignment, Look};
+pub use graph::library::Library;
+pub use graph::look::{Assignment, Look};
 pub use program::ShadingPoint;
-pub use template::Patterns;
+pub use surface::{Material, Patterns};
 pub use text::files::SearchPath;

@@ -3,6 +3,8 @@
 //!
 //! Names, types and defaults are those of MaterialX 1.39 and, for `retro_reflective_bsdf`, of the proposal.
 
+use catseye::Params;
+
 use crate::value::{Type, Value};
 
 /// What a node is, once its category and types are resolved.
@@ -136,6 +138,17 @@ impl Accepts {
             Self::Roughness => x.max(0.0),
             Self::Any | Self::Direction | Self::Words(_) | Self::DefaultOnly => x,
         }
+    }
+}
+
+/// The parameters to more digits, so that a refusal shows 1.1 and not 1.100000023841858, the f32 next to it.
+pub(crate) fn as_written(params: &Params<f32>) -> Params<f64> {
+    let written = |x: f32| x.to_string().parse().unwrap_or(f64::from(x));
+    Params {
+        roughness_u: written(params.roughness_u),
+        roughness_v: params.roughness_v.map(written),
+        tint: params.tint.map(written),
+        multiscatter_tint: params.multiscatter_tint.map(written),
     }
 }
 

@@ -4,7 +4,7 @@ use std::{fmt, fs::File, io::BufReader, path::Path};
 
 use image::{DynamicImage, ImageReader};
 
-use crate::value::ColorSpace;
+use crate::color_space::ColorSpace;
 
 /// Columns or rows of a picture.
 const MAX_SIDE: u32 = 16_384;

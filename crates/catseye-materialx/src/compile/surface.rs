@@ -3,16 +3,21 @@
 use std::ptr;
 
 use crate::{
-    closure::{Material, ScatterMode},
-    compile::PatternCompiler,
+    closure::ScatterMode,
+    compile::{
+        pattern::PatternCompiler,
+        slot::{Leaf, Slot, SurfaceTemplate, Template, finite},
+    },
     error::{Error, listed},
-    graph::{Feed, Graph, NodeRef},
-    input::unknown_category,
-    library::Library,
-    node::{Node, is_known},
+    graph::{
+        Feed, Graph, NodeRef,
+        input::unknown_category,
+        library::Library,
+        node::{Node, is_known},
+    },
     nodes::closures::{Accepts, InputDefault, Kind},
     program::{Geometry, Op},
-    template::{Leaf, Patterns, Slot, SurfaceTemplate, Template},
+    surface::{Material, Patterns},
     text::element::Element,
     value::{Type, Value},
 };
@@ -420,9 +425,7 @@ impl<'a> Builder<'a> {
 
     fn slot_of<const N: usize>(&self, register: u32, accepts: Accepts) -> Slot<N> {
         match self.patterns.lowering.assembler.constant(register) {
-            Some(lanes) => {
-                Slot::Constant(core::array::from_fn(|i| crate::template::finite(accepts.nearest(lanes[i]))))
-            }
+            Some(lanes) => Slot::Constant(core::array::from_fn(|i| finite(accepts.nearest(lanes[i])))),
             None => Slot::Register { register, accepts },
         }
     }

@@ -1,14 +1,14 @@
 //! Closures whose inputs are constants or registers of a pattern program.
 
-use std::{cell::RefCell, sync::Arc};
+use std::cell::RefCell;
 
 use catseye::{ParamError, Params};
 
 use crate::{
     closure::{Closure, ScatterMode, Surface},
     error::Error,
-    nodes::closures::Accepts,
-    program::{Lanes, Program, ShadingPoint},
+    nodes::closures::{Accepts, as_written},
+    program::Lanes,
 };
 
 /// An input of `N` numbers.
@@ -323,50 +323,6 @@ impl SurfaceTemplate {
     }
 }
 
-/// A material that varies over the surface. Cheap to clone; used from any thread.
-#[derive(Clone, Debug)]
-pub struct Patterns {
-    shared: Arc<(SurfaceTemplate, Program)>,
-}
-
-impl Patterns {
-    pub(crate) fn new(surface: SurfaceTemplate, program: Program) -> Self {
-        Self { shared: Arc::new((surface, program)) }
-    }
-
-    /// What the surface is at a point.
-    #[must_use]
-    pub fn at(&self, point: &ShadingPoint) -> Surface {
-        self.at_with(point, &mut Vec::new())
-    }
-
-    /// As [`Self::at`], with room for registers that is used again from point to point.
-    pub fn at_with(&self, point: &ShadingPoint, registers: &mut Vec<[f32; 4]>) -> Surface {
-        let (surface, program) = &*self.shared;
-        program.run(point, registers);
-        surface.at(registers)
-    }
-
-    /// Whether the opacity varies.
-    #[must_use]
-    pub fn has_opacity(&self) -> bool {
-        self.shared.0.opacity.register().is_some()
-    }
-
-    /// Bytes of all textures.
-    #[must_use]
-    pub fn texture_bytes(&self) -> usize {
-        self.shared.1.texture_bytes()
-    }
-}
-
-impl PartialEq for Patterns {
-    /// Whether they are the same patterns, not merely alike.
-    fn eq(&self, other: &Self) -> bool {
-        Arc::ptr_eq(&self.shared, &other.shared)
-    }
-}
-
 /// The direction at length 1, whatever its length; `None` where it is not finite or zero.
 fn unit(direction: [f32; 3]) -> Option<[f32; 3]> {
     let largest = direction.iter().fold(0.0_f32, |largest, x| largest.max(x.abs()));
@@ -376,15 +332,4 @@ fn unit(direction: [f32; 3]) -> Option<[f32; 3]> {
     let scaled = direction.map(|x| x / largest);
     let length = scaled.iter().map(|x| x * x).sum::<f32>().sqrt();
     Some(scaled.map(|x| x / length))
-}
-
-/// The parameters to more digits, so that a refusal shows 1.1 and not 1.100000023841858, the f32 next to it.
-pub(crate) fn as_written(params: &Params<f32>) -> Params<f64> {
-    let written = |x: f32| x.to_string().parse().unwrap_or(f64::from(x));
-    Params {
-        roughness_u: written(params.roughness_u),
-        roughness_v: params.roughness_v.map(written),
-        tint: params.tint.map(written),
-        multiscatter_tint: params.multiscatter_tint.map(written),
-    }
 }

@@ -2,8 +2,10 @@
 
 use crate::{
     error::{Error, Place, listed, quoted},
-    graph::{Feed, Graph, MOST_PROBLEMS, NodeRef},
-    input::{feed, unknown_category},
+    graph::{
+        Feed, Graph, MOST_PROBLEMS, NodeRef,
+        input::{feed, unknown_category},
+    },
     nodes::closures::{InputDef, NODE_DEFS, NodeDef},
     text::element::Element,
     value::Type,

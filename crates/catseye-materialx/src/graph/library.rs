@@ -23,8 +23,8 @@ const MAX_DEPTH: usize = 6;
 /// The definitions of our own data library that are graphs: `retro_sheeting_surface`. Test `read` reads a document with it.
 static OWN: LazyLock<Vec<Element>> = LazyLock::new(|| {
     let files = [
-        ("catseye_defs.mtlx", include_str!("../libraries/catseye/catseye_defs.mtlx")),
-        ("catseye_ng.mtlx", include_str!("../libraries/catseye/catseye_ng.mtlx")),
+        ("catseye_defs.mtlx", include_str!("../../libraries/catseye/catseye_defs.mtlx")),
+        ("catseye_ng.mtlx", include_str!("../../libraries/catseye/catseye_ng.mtlx")),
     ];
     files.iter().flat_map(|(name, text)| parse_bytes(text.as_bytes(), name, None)).collect()
 });

@@ -3,15 +3,15 @@
 use catseye::{ParamError, Params};
 
 use crate::{
+    color_space::{COLOR_SPACES, ColorSpace},
     error::{Error, listed, plain, quoted},
     graph::{Feed, Graph, NodeRef},
     nodes::{
-        closures::{Accepts, InputDef, InputDefault},
+        closures::{Accepts, InputDef, InputDefault, as_written},
         signature, signatures,
     },
-    template::as_written,
     text::element::Element,
-    value::{COLOR_SPACES, ColorSpace, Type, Value},
+    value::{Type, Value},
 };
 
 /// The type of a node's output.
@@ -65,7 +65,7 @@ pub(crate) fn unknown_category(graph: &Graph<'_>, element: &Element) -> Error {
 }
 
 /// Why a node doesn't fit the first definition of its category.
-fn unfitting(element: &Element, definition: &crate::library::Definition<'_>, count: usize) -> Error {
+fn unfitting(element: &Element, definition: &crate::graph::library::Definition<'_>, count: usize) -> Error {
     let expected = definition.output_type().unwrap_or_default();
     let found = element.attribute("type").unwrap_or_default();
     if count == 1 && expected != found {

@@ -8,14 +8,17 @@ use std::{
 };
 
 use crate::{
+    color_space::{COLOR_SPACES, ColorSpace},
     error::{Error, listed, quoted},
-    graph::{Feed, Graph, MOST_PROBLEMS, NodeRef, ScopeId},
-    input::{check_connection, color_space, constant, no_output, output_type, unknown_category},
-    library::Library,
+    graph::{
+        Feed, Graph, MOST_PROBLEMS, NodeRef, ScopeId,
+        input::{check_connection, color_space, constant, no_output, output_type, unknown_category},
+        library::Library,
+    },
     nodes::{Lowering, Operand, Parameter, Port, Signature, signature, signatures},
     program::{Geometry, texture::Texture},
     text::{element::Element, files::Refusal},
-    value::{COLOR_SPACES, ColorSpace, Type, Value},
+    value::{Type, Value},
 };
 
 /// Pattern nodes in a chain: what keeps the recursion bounded.

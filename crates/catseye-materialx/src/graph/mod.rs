@@ -1,5 +1,10 @@
 //! Names, scopes and connections: what feeds an input.
 
+pub(crate) mod input;
+pub(crate) mod library;
+pub(crate) mod look;
+pub(crate) mod node;
+
 use std::{
     cell::{Cell, RefCell},
     collections::HashMap,
@@ -8,7 +13,7 @@ use std::{
 
 use crate::{
     error::{Error, quoted},
-    library::{Definition, Definitions, Library},
+    graph::library::{Definition, Definitions, Library},
     text::element::Element,
 };
 
