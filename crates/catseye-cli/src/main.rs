@@ -2,7 +2,6 @@
 
 mod args;
 mod canvas;
-mod data_library;
 mod failure;
 mod figure;
 mod fitting;

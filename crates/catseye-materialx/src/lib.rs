@@ -59,6 +59,7 @@ mod check;
 mod closure;
 mod color_space;
 mod compile;
+pub mod data_library;
 mod document;
 mod error;
 mod graph;

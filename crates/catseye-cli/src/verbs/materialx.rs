@@ -4,9 +4,9 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
+use catseye_materialx::data_library::{FILES, NAME};
 use clap::Subcommand;
 
-use crate::data_library::{FILES, NAME};
 use crate::help;
 use crate::verbs::check::Check;
 

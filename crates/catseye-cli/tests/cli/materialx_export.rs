@@ -30,7 +30,7 @@ fn the_exported_library_is_the_repositorys() {
         assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""));
     }
     let exported = bench.path("new/libraries");
-    assert_eq!(files(&exported), files(&ours), "list every file in src/data_library.rs");
+    assert_eq!(files(&exported), files(&ours), "list every file in data_library.rs of catseye-materialx");
     for path in files(&ours) {
         assert_eq!(
             fs::read(exported.join(&path)).unwrap(),

@@ -1,17 +1,17 @@
-//! The MaterialX data library, as it is in `crates/catseye-materialx/libraries`.
+//! The data library that brings `retro_reflective_bsdf` and `retro_sheeting_surface` to MaterialX itself.
 
 /// A file: its path under the library's folder, and its text.
 macro_rules! file {
     ($path:literal) => {
-        ($path, include_str!(concat!("../../catseye-materialx/libraries/catseye/", $path)))
+        ($path, include_str!(concat!("../libraries/catseye/", $path)))
     };
 }
 
 /// The library's folder, by which MaterialX loads it.
-pub(crate) const NAME: &str = "catseye";
+pub const NAME: &str = "catseye";
 
-/// Every file of the library.
-pub(crate) const FILES: &[(&str, &str)] = &[
+/// Every file of the library: its path under the folder, with `/`, and its text.
+pub const FILES: &[(&str, &str)] = &[
     file!("catseye_defs.mtlx"),
     file!("catseye_ng.mtlx"),
     file!("genglsl/catseye_genglsl_impl.mtlx"),
