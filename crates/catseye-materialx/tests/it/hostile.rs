@@ -1,7 +1,5 @@
 //! Promise: no document, however hostile, panics, overflows the stack, or takes more than bounded time and memory.
 
-mod support;
-
 use std::time::{Duration, Instant};
 
 use catseye_materialx::{Closure, Document, Error, Material};
@@ -9,7 +7,8 @@ use proptest::{
     prelude::*,
     test_runner::{FileFailurePersistence, RngSeed},
 };
-use support::{document, single};
+
+use crate::support::{document, single};
 
 /// Each of the worst documents takes well below a second; the rest is room for a loaded machine.
 const MOST_TIME: Duration = Duration::from_secs(10);
@@ -163,8 +162,8 @@ fn config() -> ProptestConfig {
     }
 }
 
-const SHEETING: &str = include_str!("../../../materials/sheeting.mtlx");
-const TAPE: &str = include_str!("../../../materials/anisotropic_tape.mtlx");
+const SHEETING: &str = include_str!("../../../../materials/sheeting.mtlx");
+const TAPE: &str = include_str!("../../../../materials/anisotropic_tape.mtlx");
 
 /// Pieces that a parser may stumble over.
 const PIECES: &[&str] = &[

@@ -1,12 +1,11 @@
 //! Promise: a document reads as MaterialX says it means.
 
-mod support;
-
 use std::{collections::BTreeSet, path::PathBuf};
 
 use catseye::Params;
 use catseye_materialx::{Closure, Document, Material, ScatterMode};
-use support::{document, single};
+
+use crate::support::{document, single};
 
 fn materials_folder() -> PathBuf {
     [env!("CARGO_MANIFEST_DIR"), "../../materials"].iter().collect()

@@ -1,9 +1,8 @@
 //! Promise: whatever is wrong, one line names the file, the place, the element, the value and the way out.
 
-mod support;
-
 use catseye_materialx::{Document, Error};
-use support::{document, single};
+
+use crate::support::{document, single};
 
 fn error(text: &str) -> Error {
     Document::parse(text, "m.mtlx").and_then(|document| document.material(None)).expect_err(text)

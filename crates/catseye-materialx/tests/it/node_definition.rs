@@ -1,4 +1,4 @@
-//! The node definition, Rust's defaults and the documentation's table say the same, and the generated files are fresh.
+//! Promise: the node definition, Rust's defaults and the documentation's table say the same, and the generated files are fresh.
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::fs;

@@ -1,12 +1,11 @@
 //! Promise: patterns compute what MaterialX says they do, and constants are folded away.
 
-mod support;
-
 use std::sync::Arc;
 
 use catseye::Params;
 use catseye_materialx::{Closure, Document, Library, Material, SearchPath, ShadingPoint};
-use support::{document, single};
+
+use crate::support::{document, single};
 
 fn parse(text: &str) -> Material {
     Document::parse(text, "test.mtlx")

@@ -1,0 +1,9 @@
+//! Tests of the public interface: one file for each promise.
+
+mod check;
+mod errors;
+mod hostile;
+mod node_definition;
+mod patterns;
+mod read;
+mod support;
