@@ -1,9 +1,10 @@
-//! The one door for chores. People and continuous integration run the same commands, so they can't differ.
+//! Developer tasks. People and continuous integration run the same commands, so they can't differ.
 
 mod fit_albedo;
 mod generated;
 mod golden;
 mod lint;
+mod package;
 mod pictures;
 mod shader_albedo;
 mod test;
@@ -28,7 +29,7 @@ struct Cli {
 
 #[derive(Debug, Subcommand)]
 enum Chore {
-    /// Check formatting, clippy, the documentation and the build without std
+    /// Check formatting, clippy, the documentation, the build without std and the packages
     Lint,
     /// Lint, then run every test
     Test,

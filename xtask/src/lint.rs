@@ -4,9 +4,10 @@ use std::process::Command;
 
 use anyhow::Result;
 
+use crate::package;
 use crate::tool::{self, cargo, has_cargo, output, run_cargo};
 
-/// Formatting, clippy, documentation, and the BSDF without std.
+/// Formatting, clippy, documentation, the BSDF without std, and the packages.
 pub(crate) fn run() -> Result<()> {
     if has_cargo("fmt", "run `rustup component add rustfmt`")? {
         run_cargo("fmt --all --check")?;
@@ -15,7 +16,8 @@ pub(crate) fn run() -> Result<()> {
         run_cargo("clippy --release --workspace --all-targets -- -D warnings")?;
     }
     document()?;
-    without_std()
+    without_std()?;
+    package::run()
 }
 
 /// Builds the documentation, private items too; a warning is an error.

@@ -3,6 +3,8 @@
 use std::env;
 use std::path::Path;
 use std::process::{Command, Stdio};
+use std::sync::OnceLock;
+use std::time::Instant;
 
 use anyhow::{Context as _, Result, ensure};
 
@@ -24,9 +26,11 @@ pub(crate) fn run_cargo(args: &str) -> Result<()> {
     run(&mut cargo(args), &format!("cargo {args}"))
 }
 
-/// Runs a command, shown by the given name.
+/// Runs a command, shown by the given name and the time since the first one.
 pub(crate) fn run(command: &mut Command, name: &str) -> Result<()> {
-    eprintln!("xtask: {name}");
+    static START: OnceLock<Instant> = OnceLock::new();
+    let seconds = START.get_or_init(Instant::now).elapsed().as_secs();
+    eprintln!("xtask: {:2}:{:02} {name}", seconds / 60, seconds % 60);
     let status = command.status().with_context(|| format!("{name}: can't be run"))?;
     ensure!(status.success(), "{name}: failed ({status})");
     Ok(())
