@@ -5,6 +5,7 @@ use std::io::{self, IsTerminal as _, Read as _};
 use std::path::Path;
 
 use anyhow::Context as _;
+use catseye_photometry::line_of_record;
 
 use crate::failure::Usage;
 
@@ -49,19 +50,11 @@ impl Input {
 
     /// The place of the record that was read from the byte offset `byte` on: `FILE:LINE`.
     pub(crate) fn place(&self, byte: u64) -> String {
-        if self.has_lines { format!("{}:{}", self.name, self.line(byte)) } else { self.name.clone() }
-    }
-
-    /// The line of the first record at or after a byte offset, counted from 1.
-    ///
-    /// The reader's own line numbers are off by the empty lines before a record, and by one after a CRLF.
-    fn line(&self, byte: u64) -> usize {
-        let start = usize::try_from(byte).unwrap_or(usize::MAX).min(self.text.len());
-        let is_end = |b: &u8| matches!(b, b'\n' | b'\r');
-        let record = start + self.text[start..].iter().take_while(|b| is_end(b)).count();
-        let before = &self.text[..record];
-        let crlf = before.windows(2).filter(|pair| pair == b"\r\n").count();
-        before.iter().filter(|b| is_end(b)).count() - crlf + 1
+        if self.has_lines {
+            format!("{}:{}", self.name, line_of_record(&self.text, byte))
+        } else {
+            self.name.clone()
+        }
     }
 }
 

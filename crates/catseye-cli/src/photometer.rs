@@ -67,7 +67,7 @@ impl Photometer {
         let anywhere = |geometry: &Geometry| self.brdf(geometry).unwrap_or(f64::NAN);
         let value = match quantity {
             Quantity::LuminousIntensity => {
-                let r_a = Quantity::RetroReflectionCoefficient.from_brdf(f, geometry);
+                let r_a = Quantity::RetroReflectionCoefficient.of_brdf(f, geometry);
                 let Some(area) = self.area else {
                     bail!("R_I is of a whole reflector, R_A times its area: say which with --area-m2");
                 };
@@ -79,7 +79,7 @@ impl Photometer {
                 geometry.observation().min(FRAC_PI_2),
             )),
             Quantity::DaytimeLuminance => Some(diffuse_luminance_coefficient(anywhere, geometry.viewing())),
-            _ => quantity.from_brdf(f, geometry),
+            _ => quantity.of_brdf(f, geometry),
         };
         value.filter(|value| value.is_finite()).ok_or_else(|| anyhow!("{quantity} is not a finite number"))
     }

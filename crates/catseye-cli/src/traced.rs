@@ -30,7 +30,7 @@ impl Traced<'_> {
         let r_a = Quantity::RetroReflectionCoefficient;
         let factor = match quantity {
             Quantity::LuminousIntensity => self.area,
-            _ => r_a.to_brdf(1.0, geometry).and_then(|f| quantity.from_brdf(f, geometry)),
+            _ => r_a.to_brdf(1.0, geometry).and_then(|f| quantity.of_brdf(f, geometry)),
         };
         let Some(factor) = factor else {
             match quantity {

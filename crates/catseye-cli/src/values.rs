@@ -4,20 +4,32 @@ use std::io::{self, Read as _};
 use std::path::Path;
 
 use anyhow::Context as _;
-use catseye_photometry::standards::{Catalogue, Class};
-use catseye_photometry::{Need, Row, Table};
+use catseye_photometry::standards::{Catalogue, StandardClass};
+use catseye_photometry::{Row, Table};
 
 /// Bytes after which a table on standard input is too large for the library, which says so.
 const LARGEST: u64 = 1 << 25;
 
-/// Reads a CSV file, or standard input where it is `-`.
-pub(crate) fn read(path: &Path, need: Need) -> anyhow::Result<Table> {
+/// Reads values from a CSV file, or from standard input where it is `-`.
+pub(crate) fn read(path: &Path) -> anyhow::Result<Table> {
     if path != Path::new("-") {
-        return Ok(Table::read(path, need)?);
+        return Ok(Table::read_values(path)?);
     }
+    Ok(Table::parse_values(&read_stdin()?, "<stdin>")?)
+}
+
+/// Reads geometries from a CSV file, or from standard input where it is `-`.
+pub(crate) fn read_geometries(path: &Path) -> anyhow::Result<Table> {
+    if path != Path::new("-") {
+        return Ok(Table::read_geometries(path)?);
+    }
+    Ok(Table::parse_geometries(&read_stdin()?, "<stdin>")?)
+}
+
+fn read_stdin() -> anyhow::Result<Vec<u8>> {
     let mut bytes = Vec::new();
     io::stdin().lock().take(LARGEST).read_to_end(&mut bytes).context("<stdin>: can't be read")?;
-    Ok(Table::parse(&bytes, "<stdin>", need)?)
+    Ok(bytes)
 }
 
 /// Whether a name is that of a file: a path that exists, ends in `.csv` or is `-`.
@@ -28,17 +40,17 @@ pub(crate) fn is_table(name: &str) -> bool {
 }
 
 /// The classes that a name means, or the one that a file is.
-pub(crate) fn classes(name: &str) -> anyhow::Result<Vec<Class>> {
+pub(crate) fn classes(name: &str) -> anyhow::Result<Vec<StandardClass>> {
     if is_table(name) {
-        let table = read(Path::new(name), Need::Values)?;
-        return Ok(Class::from_table(table).into_iter().collect());
+        let table = read(Path::new(name))?;
+        return Ok(StandardClass::from_table(table).into_iter().collect());
     }
     Ok(Catalogue::embedded()?.matching(name)?.into_iter().cloned().collect())
 }
 
 /// Several classes as one table.
-pub(crate) fn joined(name: &str, classes: &[Class]) -> Table {
+pub(crate) fn joined(name: &str, classes: &[StandardClass]) -> Table {
     let header = classes.first().map_or(&[][..], |class| class.table().header());
-    let rows: Vec<Row> = classes.iter().flat_map(Class::rows).cloned().collect();
+    let rows: Vec<Row> = classes.iter().flat_map(StandardClass::rows).cloned().collect();
     Table::from_rows(name, header, rows)
 }

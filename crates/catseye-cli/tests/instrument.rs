@@ -49,7 +49,7 @@ fn rays_and_quadrature_agree() {
             let expected = rule.mean(wo, wi, |wo, wi| {
                 let f = lobes.iter().map(|lobe| lobe.eval(wo, wi)[1]).sum();
                 let r_a = Quantity::RetroReflectionCoefficient;
-                r_a.from_brdf(f, &Geometry { wo, wi }).expect("needs no integral")
+                r_a.of_brdf(f, &Geometry { wo, wi }).expect("needs no integral")
             });
             if expected < 1e-3 {
                 // Below what ASTM E810 measures, by a factor of 100.

@@ -23,6 +23,7 @@ use std::f64::consts::TAU;
 use catseye::Vec3;
 
 use crate::Error;
+use crate::gauss::gauss;
 use crate::geometry::cross;
 
 /// The widest aperture, radians: the rule is made for small angles.
@@ -78,8 +79,8 @@ impl Apertures {
             [("the source's aperture", self.source), ("the receiver's aperture", self.receiver)]
         {
             if !(0.0..=MAX_DIAMETER).contains(&diameter) {
-                let range = "[0, 0.35] radians, which is [0, 20] degrees";
-                return Err(Error::Range { name, value: diameter, range });
+                let value = diameter.to_degrees();
+                return Err(Error::Range { name, value, range: "[0, 20] degrees" });
             }
         }
         let disks = Disks { source: 0.5 * self.source, receiver: 0.5 * self.receiver };
@@ -248,87 +249,9 @@ impl Disks {
     }
 }
 
-/// Gauss' quadrature for a weight function that is given by many points (node, weight): exact for polynomials up to the
-/// degree 2 `count` - 1 in the node.
-///
-/// The orthonormal polynomials come from the discretised Stieltjes procedure (Gautschi, "Orthogonal Polynomials:
-/// Computation and Approximation", 2004, section 2.2.3); their roots are found between those of the one before.
-fn gauss(measure: &[(f64, f64)], count: usize) -> Vec<(f64, f64)> {
-    let inner = |f: &dyn Fn(f64) -> f64| measure.iter().map(|&(t, w)| w * f(t)).sum::<f64>();
-    let mut recurrence: Vec<[f64; 2]> = Vec::new();
-    for k in 0..count {
-        let last = |t: f64| *polynomials(&recurrence, t, k + 1).last().unwrap_or(&1.0);
-        let norm = inner(&|t| last(t).powi(2));
-        let centre = inner(&|t| t * last(t).powi(2)) / norm;
-        recurrence.push([centre, norm]);
-    }
-    let upper = measure.iter().map(|(t, _)| *t).fold(0.0, f64::max);
-    let mut roots = Vec::new();
-    for degree in 1..=count {
-        let value = |t: f64| polynomials(&recurrence, t, degree + 1)[degree];
-        let edges: Vec<f64> = std::iter::once(0.0).chain(roots).chain([upper]).collect();
-        roots = edges.windows(2).map(|edge| bisect(value, edge[0], edge[1])).collect();
-    }
-    let weight = |t: f64| {
-        let values = polynomials(&recurrence, t, count);
-        1.0 / values.iter().zip(&recurrence).map(|(p, [_, norm])| p * p / norm).sum::<f64>()
-    };
-    roots.into_iter().map(|t| (t, weight(t))).collect()
-}
-
-/// The first monic orthogonal polynomials at t, from their centres and squared norms.
-fn polynomials(recurrence: &[[f64; 2]], t: f64, count: usize) -> Vec<f64> {
-    let mut values = vec![1.0];
-    for k in 1..count {
-        let [centre, norm] = recurrence[k - 1];
-        let before = if k > 1 { norm / recurrence[k - 2][1] * values[k - 2] } else { 0.0 };
-        values.push((t - centre) * values[k - 1] - before);
-    }
-    values
-}
-
-/// The root of a function that changes its sign once between two points.
-fn bisect(value: impl Fn(f64) -> f64, mut low: f64, mut high: f64) -> f64 {
-    let sign = value(low).signum();
-    // Halving as often as a double has bits, and a few times more.
-    for _ in 0..60 {
-        let middle = 0.5 * (low + high);
-        if value(middle).signum() == sign { low = middle } else { high = middle }
-    }
-    0.5 * (low + high)
-}
-
 #[cfg(test)]
 mod tests {
-    use catseye::{Lobe as _, Params, Reciprocal};
-
     use super::*;
-    use crate::{Geometry, Goniometer};
-
-    /// Apertures in degrees.
-    fn apertures(source: f64, receiver: f64) -> Apertures {
-        Apertures { source: source.to_radians(), receiver: receiver.to_radians() }
-    }
-
-    /// The mean over four dimensions: a rule for each disk, which has nothing to convolve.
-    fn mean_of_both(
-        apertures: Apertures,
-        geometry: Geometry,
-        value: impl Fn(Vec3<f64>, Vec3<f64>) -> f64,
-    ) -> f64 {
-        let fine = |apertures: Apertures| apertures.rule_of_degree(31).unwrap();
-        let receiver = fine(Apertures { source: 0.0, ..apertures });
-        let source = fine(Apertures { receiver: 0.0, ..apertures });
-        let Geometry { wo, wi } = geometry;
-        receiver.mean(wo, wi, |wo_moved, _| source.mean(wo, wi, |_, wi_moved| value(wo_moved, wi_moved)))
-    }
-
-    /// A lobe of the given full width at half maximum over the observation angle, in degrees.
-    fn lobe(width_deg: f64) -> Reciprocal<f64> {
-        // Near its peak the lobe is exp(-(d / m)^2) with d half the observation angle.
-        let m2 = (0.25 * width_deg.to_radians()).powi(2) / std::f64::consts::LN_2;
-        Reciprocal::new(&Params::isotropic((2.0 * m2 / (1.0 - m2)).sqrt())).unwrap()
-    }
 
     #[test]
     fn moments_of_the_difference_are_exact() {
@@ -347,62 +270,6 @@ mod tests {
             assert!((mean(&squared) / expected - 1.0).abs() < 1e-9, "{a} {b}");
             let expected = (a.powi(4) + b.powi(4)) / 3.0 + a * a * b * b;
             assert!((mean(&|d| squared(d).powi(2)) / expected - 1.0).abs() < 1e-9, "{a} {b}");
-        }
-    }
-
-    #[test]
-    fn the_difference_is_as_good_as_four_dimensions() {
-        // As in the documentation: 1e-4 of the value on the axes or of the mean, whichever is greater. What is left out
-        // grows with the square of the aperture: 3.2e-4 at 0.3 degrees and an entrance angle of 60.
-        for apertures in [apertures(0.1, 0.1), apertures(0.1, 0.04), apertures(0.0, 0.1), apertures(0.3, 0.3)]
-        {
-            let widest = apertures.source.max(apertures.receiver).to_degrees();
-            let tolerance = if widest > 0.2 { 4e-4 } else { 1e-4 };
-            for width in [widest, 3.0 * widest] {
-                let lobe = lobe(width);
-                let value = |wo: Vec3<f64>, wi: Vec3<f64>| lobe.eval(wo, wi)[0] * wo.z * wi.z;
-                for [alpha, beta] in [[0.0, -4.0], [0.1, 5.0], [0.2, 30.0], [0.33, 60.0], [1.0, 40.0]] {
-                    // A lobe that is 1e-6 of its peak is none.
-                    if alpha > 2.0 * width {
-                        continue;
-                    }
-                    let geometry = Geometry::from(Goniometer::from_degrees(alpha, beta, 0.0, 20.0));
-                    let expected = mean_of_both(apertures, geometry, value);
-                    let mean = apertures.rule().unwrap().mean(geometry.wo, geometry.wi, value);
-                    let on_axis = value(geometry.wo, geometry.wi);
-                    assert!(
-                        (mean - expected).abs() < tolerance * expected.max(on_axis),
-                        "{apertures:?} {width} {alpha} {beta}: {mean} {expected}"
-                    );
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn a_wide_lobe_is_seen_as_it_is() {
-        let lobe = lobe(20.0);
-        let value = |wo: Vec3<f64>, wi: Vec3<f64>| lobe.eval(wo, wi)[0] * wo.z * wi.z;
-        let Geometry { wo, wi } = Geometry::from(Goniometer::from_degrees(0.5, 30.0, 0.0, 0.0));
-        let mean = Apertures::ASTM_E810.rule().unwrap().mean(wo, wi, value);
-        assert!((mean / value(wo, wi) - 1.0).abs() < 1e-4);
-    }
-
-    #[test]
-    fn points_see_one_pair_of_directions() {
-        let rule = Apertures::both_deg(0.0).rule().unwrap();
-        let Geometry { wo, wi } = Geometry::from(Goniometer::from_degrees(0.0, 0.0, 0.0, 0.0));
-        let pairs: Vec<_> = rule.directions(wo, wi).collect();
-        assert_eq!((rule.count(), pairs), (1, vec![(wo, wi, 1.0)]));
-    }
-
-    #[test]
-    fn apertures_that_are_none_are_refused_by_name() {
-        for (source, receiver, name) in
-            [(-0.1, 0.1, "source"), (0.1, f64::NAN, "receiver"), (0.1, 21.0, "receiver")]
-        {
-            let message = apertures(source, receiver).rule().unwrap_err().to_string();
-            assert!(message.contains(name), "{message}");
         }
     }
 }

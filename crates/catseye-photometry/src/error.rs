@@ -2,6 +2,8 @@
 
 use std::path::PathBuf;
 
+use crate::digits::significant;
+
 /// Why a table, a value or a name was refused. The text names the place, the value and the way out.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -77,13 +79,13 @@ pub enum Error {
         candidates: String,
     },
     /// A number outside the range that a conversion is defined on.
-    #[error("{name} is {value}, outside {range}")]
+    #[error("{name} is {}, outside {range}", significant(*value, 6))]
     Range {
         /// What the number is.
         name: &'static str,
-        /// The number.
+        /// The number; an angle in degrees.
         value: f64,
-        /// The range, in the notation `[0, 1]`.
+        /// The range, in the notation `[0, 1]`, and the unit.
         range: &'static str,
     },
 }

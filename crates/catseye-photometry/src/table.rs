@@ -17,7 +17,8 @@ use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
-use crate::cells::{Cells, Columns};
+use crate::lines::{LineCounter, line_of_record};
+use crate::record::{Columns, Record};
 use crate::standards::plain;
 use crate::{Error, Geometry, Goniometer, Quantity, Unit};
 
@@ -28,7 +29,7 @@ const CONTRADICTION: f64 = 0.05;
 
 /// What a table is for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Need {
+pub(crate) enum Need {
     /// Geometries to measure at. Values are not looked at.
     Geometry,
     /// Values at the geometries, of which every one is checked.
@@ -114,7 +115,7 @@ impl Row {
     /// The value in the unit that it is written in.
     #[must_use]
     pub fn value_as_written(&self) -> Option<f64> {
-        self.value.map(|value| self.unit.from_si(value))
+        self.value.map(|value| self.unit.of_si(value))
     }
 }
 
@@ -127,25 +128,48 @@ pub struct Table {
 }
 
 impl Table {
-    /// Reads a file.
+    /// Reads a file of values, every one of which is checked.
     ///
     /// # Errors
-    /// A file that can't be read, and everything that [`Table::parse`] refuses.
-    pub fn read(path: &Path, need: Need) -> Result<Self, Error> {
+    /// A file that can't be read, and everything that [`Table::parse_values`] refuses.
+    pub fn read_values(path: &Path) -> Result<Self, Error> {
+        Self::read(path, Need::Values)
+    }
+
+    /// Reads a file of geometries to measure at; values are not looked at.
+    ///
+    /// # Errors
+    /// A file that can't be read, and everything that [`Table::parse_geometries`] refuses.
+    pub fn read_geometries(path: &Path) -> Result<Self, Error> {
+        Self::read(path, Need::Geometry)
+    }
+
+    /// Reads CSV text with a header line and values; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// As [`Table::parse_geometries`], and a value that is missing, not finite, not above 0, in a unit that does not measure
+    /// its quantity or beyond [`Quantity::plausible`], an observation angle of 0, and rows that contradict each other.
+    pub fn parse_values(bytes: &[u8], name: &str) -> Result<Self, Error> {
+        Self::parse(bytes, name, Need::Values)
+    }
+
+    /// Reads CSV text with a header line for its geometries; `name` is what errors call it.
+    ///
+    /// # Errors
+    /// Names line and column of: text that is not UTF-8 or longer than 16 MiB, a missing or doubled column, a table
+    /// without rows, an angle that is no number or out of its range, a receiver below the surface.
+    pub fn parse_geometries(bytes: &[u8], name: &str) -> Result<Self, Error> {
+        Self::parse(bytes, name, Need::Geometry)
+    }
+
+    fn read(path: &Path, need: Need) -> Result<Self, Error> {
         let io = |source| Error::Io { path: path.to_owned(), source };
         let mut bytes = Vec::new();
         File::open(path).map_err(io)?.take(LARGEST as u64 + 1).read_to_end(&mut bytes).map_err(io)?;
         Self::parse(&bytes, &path.display().to_string(), need)
     }
 
-    /// Reads CSV text with a header line; `name` is what errors call it.
-    ///
-    /// # Errors
-    /// Names line and column of: text that is not UTF-8 or longer than 16 MiB, a missing or doubled column, a table
-    /// without rows, an angle that is no number or out of its range, a receiver below the surface. Where values are
-    /// needed also: a value that is missing, not finite, not above 0, in a unit that does not measure its quantity or
-    /// beyond [`Quantity::plausible`], an observation angle of 0, and rows that contradict each other.
-    pub fn parse(bytes: &[u8], name: &str, need: Need) -> Result<Self, Error> {
+    fn parse(bytes: &[u8], name: &str, need: Need) -> Result<Self, Error> {
         let fail = |problem: String| Error::Table { table: name.to_owned(), problem };
         if bytes.len() > LARGEST {
             return Err(fail(format!("is larger than {} MiB; is it a table?", LARGEST >> 20)));
@@ -153,7 +177,7 @@ impl Table {
         let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
         let text = str::from_utf8(bytes).map_err(|error| Error::Row {
             table: name.to_owned(),
-            line: line_at(bytes, error.valid_up_to()),
+            line: line_of_record(bytes, error.valid_up_to() as u64),
             problem: "is not UTF-8 text; save the table as CSV in UTF-8".to_owned(),
         })?;
         if text.trim().is_empty() {
@@ -163,13 +187,12 @@ impl Table {
         let broken = |error: csv::Error| fail(format!("can't be read as CSV: {error}"));
         let header: Vec<String> = reader.headers().map_err(broken)?.iter().map(str::to_owned).collect();
         let columns = Columns::new(&header, need).map_err(fail)?;
-        let mut rows = Vec::new();
+        let (mut rows, mut lines) = (Vec::new(), LineCounter::new(bytes));
         for record in reader.records() {
             let record = record.map_err(broken)?;
-            let byte = record.position().map_or(0, csv::Position::byte);
-            let line = line_at(bytes, usize::try_from(byte).unwrap_or(usize::MAX));
+            let line = lines.of_record(record.position().map_or(0, csv::Position::byte));
             let cells: Vec<String> = record.iter().map(str::to_owned).collect();
-            rows.push(Cells { table: name, line, columns: &columns, header: &header }.row(cells, need)?);
+            rows.push(Record { table: name, line, columns: &columns, header: &header }.row(cells, need)?);
         }
         if rows.is_empty() {
             return Err(fail("has a header, but no rows".to_owned()));
@@ -211,17 +234,14 @@ impl Table {
     pub fn to_csv(&self, added: &[(&str, Vec<String>)]) -> String {
         let is_kept = |name: &str| added.iter().all(|(other, _)| *other != name);
         let kept: Vec<usize> = (0..self.header.len()).filter(|&i| is_kept(&self.header[i])).collect();
-        let mut text = String::new();
         let names = kept.iter().map(|&i| self.header[i].as_str());
-        push_line(&mut text, names.chain(added.iter().map(|(name, _)| *name)));
-        for (i, row) in self.rows.iter().enumerate() {
-            let own = kept.iter().map(|&i| row.cells.get(i).map_or("", String::as_str));
-            push_line(
-                &mut text,
-                own.chain(added.iter().map(|(_, cells)| cells.get(i).map_or("", String::as_str))),
-            );
-        }
-        text
+        let header: Vec<&str> = names.chain(added.iter().map(|(name, _)| *name)).collect();
+        let cell = |cells: &'_ [String], i: usize| cells.get(i).cloned().unwrap_or_default();
+        let rows = self.rows.iter().enumerate().map(|(i, row)| {
+            let own = kept.iter().map(|&column| cell(&row.cells, column));
+            own.chain(added.iter().map(|(_, cells)| cell(cells, i))).collect::<Vec<String>>()
+        });
+        csv_text(&header, rows)
     }
 
     /// Two values for the same thing at the same geometry must be about the same.
@@ -249,29 +269,13 @@ impl Table {
     }
 }
 
-/// The line of the first record at or after a byte offset, counted from 1.
-fn line_at(bytes: &[u8], byte: usize) -> usize {
-    let start = byte.min(bytes.len());
-    let is_end = |b: &u8| matches!(b, b'\n' | b'\r');
-    let record = start + bytes[start..].iter().take_while(|b| is_end(b)).count();
-    let before = &bytes[..record];
-    let crlf = before.windows(2).filter(|pair| pair == b"\r\n").count();
-    before.iter().filter(|b| is_end(b)).count() - crlf + 1
-}
-
-/// Adds a line of CSV: quotes only where they are needed.
-fn push_line<'a>(text: &mut String, cells: impl Iterator<Item = &'a str>) {
-    for (i, cell) in cells.enumerate() {
-        if i > 0 {
-            text.push(',');
-        }
-        if cell.contains([',', '"', '\n', '\r']) {
-            text.push('"');
-            text.push_str(&cell.replace('"', "\"\""));
-            text.push('"');
-        } else {
-            text.push_str(cell);
-        }
+/// Rows as CSV, quotes only where they are needed.
+pub(crate) fn csv_text(header: &[&str], rows: impl Iterator<Item = Vec<String>>) -> String {
+    let mut writer = csv::WriterBuilder::new().flexible(true).from_writer(Vec::new());
+    // Writing to memory can't fail.
+    writer.write_record(header).unwrap_or_default();
+    for row in rows {
+        writer.write_record(row).unwrap_or_default();
     }
-    text.push('\n');
+    String::from_utf8(writer.into_inner().unwrap_or_default()).unwrap_or_default()
 }

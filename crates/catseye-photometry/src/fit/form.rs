@@ -3,7 +3,7 @@
 use catseye::Model;
 
 use crate::entrance::{EntranceFactor, Knee};
-use crate::sheeting::{EntranceForm, RetroLobe, Sheeting};
+use crate::sheeting::{EntranceCosine, RetroLobe, Sheeting};
 
 /// Narrowest and widest roughness that is looked for: half-power angles of 0.03 degrees, and all there is.
 const ROUGHNESS: [f64; 2] = [5e-4, 3.0];
@@ -55,7 +55,7 @@ pub struct Form {
     /// Refractive index of the clear coat, where there is one.
     pub coat_ior: Option<f64>,
     /// Which cosine the entrance factors see.
-    pub entrance_form: EntranceForm,
+    pub entrance_cosine: EntranceCosine,
 }
 
 /// What a number of the fit is.
@@ -80,13 +80,13 @@ pub enum Meaning {
 pub(crate) struct Unknown {
     pub(crate) meaning: Meaning,
     pub(crate) bounds: [f64; 2],
-    /// Where ignorance puts it, and how far from there is one unit of surprise.
+    /// Where ignorance puts it, and how far from there is one unit of `prior_residual`.
     pub(crate) prior: [f64; 2],
 }
 
 impl Unknown {
     /// How far a value is from where ignorance puts it.
-    pub(crate) fn surprise(&self, x: f64) -> f64 {
+    pub(crate) fn prior_residual(&self, x: f64) -> f64 {
         (x - self.prior[0]) / self.prior[1]
     }
 }
@@ -192,7 +192,7 @@ impl Form {
             lobes: (0..self.lobes).map(lobe).collect(),
             diffuse: find(Meaning::Diffuse).map_or(0.0, f64::exp),
             coat_ior: self.coat_ior,
-            form: self.entrance_form,
+            form: self.entrance_cosine,
         }
     }
 }

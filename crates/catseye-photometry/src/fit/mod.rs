@@ -15,7 +15,7 @@ mod shape;
 mod solve;
 mod uncertainty;
 
-pub use error::FitError;
+pub use error::{FitError, MAX_VALUES};
 pub use form::{EntranceKind, Form, Meaning};
 pub use observation::{Aim, Observation, RowError, View};
 pub use select::MAX_LOBES;
@@ -24,7 +24,7 @@ pub use uncertainty::Estimate;
 
 use catseye::Model;
 
-use crate::sheeting::{EntranceForm, Sheeting};
+use crate::sheeting::{EntranceCosine, Sheeting};
 use solve::{Solution, TABLE_ROWS};
 
 /// The worst error of a row that a fit may have: values on data sheets are not better than that.
@@ -48,7 +48,7 @@ pub struct FitOptions {
     /// Refractive index of a clear coat over the lobes, if there is one.
     pub coat_ior: Option<f64>,
     /// Which cosine the entrance factors see.
-    pub entrance_form: EntranceForm,
+    pub entrance_cosine: EntranceCosine,
     /// The worst error that is accepted, as a share of the value.
     pub tolerance: f64,
     /// Greatest channel of the material's colour over its luminance: energy is conserved in each channel.
@@ -65,7 +65,7 @@ impl Default for FitOptions {
             isotropic: false,
             diffuse: false,
             coat_ior: None,
-            entrance_form: EntranceForm::View,
+            entrance_cosine: EntranceCosine::Viewer,
             tolerance: TOLERANCE,
             channel_peak: 1.0,
         }
@@ -154,7 +154,7 @@ impl Fit {
             let sheeting = Sheeting { form, ..self.sheeting.clone() };
             problem::log_ratios(&sheeting, observations).unwrap_or_default()
         };
-        let (view, reciprocal) = (with(EntranceForm::View), with(EntranceForm::Reciprocal));
+        let (view, reciprocal) = (with(EntranceCosine::Viewer), with(EntranceCosine::Reciprocal));
         view.iter().zip(&reciprocal).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max).exp_m1()
     }
 }

@@ -50,7 +50,7 @@ impl Observation {
             (Quantity::LuminousIntensity, None) => return Err(RowError::NeedsArea),
             (quantity, _) => (quantity, 1.0),
         };
-        let Some(factor) = quantity.from_brdf(area, &geometry) else {
+        let Some(factor) = quantity.of_brdf(area, &geometry) else {
             return Err(RowError::Integral { quantity });
         };
         let value = row.value.ok_or(RowError::NoValue)?;

@@ -45,14 +45,18 @@ struct UnitLobes {
 impl<'a> Problem<'a> {
     pub(crate) fn new(form: Form, observations: &'a [Observation], channel_peak: f64, start: &[f64]) -> Self {
         let unknowns = form.unknowns();
-        let free = unknowns.iter().zip(start).map(|(unknown, &x)| unbound(unknown.bounds, x));
+        let free = unknowns.iter().zip(start).map(|(unknown, &x)| logit(unknown.bounds, x));
         let free = DVector::from_iterator(unknowns.len(), free);
         Self { form, observations, weights: vec![1.0; observations.len()], channel_peak, free, unknowns }
     }
 
+    pub(crate) fn form(&self) -> Form {
+        self.form
+    }
+
     /// The vector within its bounds.
     pub(crate) fn x(&self) -> Vec<f64> {
-        self.unknowns.iter().zip(&self.free).map(|(unknown, &free)| bind(unknown.bounds, free)).collect()
+        self.unknowns.iter().zip(&self.free).map(|(unknown, &free)| logistic(unknown.bounds, free)).collect()
     }
 
     /// The sheeting at the present point.
@@ -214,8 +218,8 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
         let data = logs.iter().enumerate().map(|(row, &log)| self.weight(row, log) * log);
         let energy = ENERGY_WEIGHT * self.energy_excess();
         let x = self.x();
-        let surprise = |(unknown, x): (&Unknown, &f64)| PRIOR_WEIGHT * unknown.surprise(*x);
-        let priors = self.unknowns.iter().zip(&x).map(surprise);
+        let prior_residual = |(unknown, x): (&Unknown, &f64)| PRIOR_WEIGHT * unknown.prior_residual(*x);
+        let priors = self.unknowns.iter().zip(&x).map(prior_residual);
         Some(DVector::from_iterator(self.rows(), data.chain([energy]).chain(priors)))
     }
 
@@ -225,7 +229,7 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
         let (rows, columns) = data.shape();
         let mut jacobian = DMatrix::zeros(self.rows(), columns);
         for (k, unknown) in self.unknowns.iter().enumerate() {
-            let slope = bind_slope(unknown.bounds, self.free[k]);
+            let slope = logistic_slope(unknown.bounds, self.free[k]);
             for j in 0..rows {
                 jacobian[(j, k)] = self.weight(j, logs[j]) * data[(j, k)] * slope;
             }
@@ -251,17 +255,17 @@ impl Problem<'_> {
 }
 
 /// The number within its bounds, from the unbounded scale.
-fn bind([low, high]: [f64; 2], free: f64) -> f64 {
+fn logistic([low, high]: [f64; 2], free: f64) -> f64 {
     low + (high - low) / (1.0 + (-free).exp())
 }
 
-fn bind_slope([low, high]: [f64; 2], free: f64) -> f64 {
+fn logistic_slope([low, high]: [f64; 2], free: f64) -> f64 {
     let share = 1.0 / (1.0 + (-free).exp());
     (high - low) * share * (1.0 - share)
 }
 
-/// The inverse of [`bind`], a little inside the bounds, where the slope is not 0.
-fn unbound([low, high]: [f64; 2], x: f64) -> f64 {
+/// The inverse of [`logistic`], a little inside the bounds, where the slope is not 0.
+fn logit([low, high]: [f64; 2], x: f64) -> f64 {
     const INSIDE: f64 = 1e-3;
     let share = ((x - low) / (high - low)).clamp(INSIDE, 1.0 - INSIDE);
     (share / (1.0 - share)).ln()

@@ -89,7 +89,7 @@ impl Span {
                         diffuse: options.diffuse,
                         roughness: options.roughness,
                         coat_ior: options.coat_ior,
-                        entrance_form: options.entrance_form,
+                        entrance_cosine: options.entrance_cosine,
                     });
                 }
             }
@@ -160,7 +160,7 @@ impl Judged {
         match self {
             Self::Worst => solution.worst,
             Self::Noise => rows * 2.0 * solution.rms.max(f64::MIN_POSITIVE).ln() + price,
-            Self::Limits(tolerance) => solution.improbability(tolerance) + price,
+            Self::Limits(tolerance) => solution.cost(tolerance) + price,
         }
     }
 }

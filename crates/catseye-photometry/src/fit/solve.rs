@@ -1,6 +1,7 @@
 //! One form fitted to the data: several starts, least squares, then the worst row.
 
 use levenberg_marquardt::LevenbergMarquardt;
+use rayon::prelude::*;
 
 use super::form::{Form, Meaning, Unknown};
 use super::observation::{Aim, Observation, RETRO_REACH};
@@ -57,7 +58,7 @@ pub(crate) fn miss(aim: Aim, log_ratio: f64) -> f64 {
     }
 }
 
-/// The best of several starts; `None` where none gives finite numbers.
+/// The best of several starts, the first of equals; `None` where none gives finite numbers.
 pub(crate) fn solve(
     form: Form,
     observations: &[Observation],
@@ -65,31 +66,44 @@ pub(crate) fn solve(
     tolerance: f64,
 ) -> Option<Solution> {
     let unknowns = form.unknowns();
+    let starts = if observations.len() > TABLE_ROWS { STARTS_OF_MANY } else { STARTS };
+    let found = (0..starts).into_par_iter().map(|start| {
+        let x = starting_point(form, &unknowns, observations, start);
+        descend(Problem::new(form, observations, channel_peak, &x), observations, channel_peak, tolerance)
+    });
+    // In the order of the starts, so that the result does not depend on the number of cores.
+    let found: Vec<Option<Solution>> = found.collect();
+    found
+        .into_iter()
+        .flatten()
+        .reduce(|best, next| if next.is_better_than(&best, tolerance) { next } else { best })
+}
+
+/// The best that rounds of least squares find from one start, the worst rows weighing more from round to round.
+fn descend(
+    mut problem: Problem<'_>,
+    observations: &[Observation],
+    channel_peak: f64,
+    tolerance: f64,
+) -> Option<Solution> {
     // Limits are met by strength, not by weights, which would forget the rows that are met.
     let has_limits = observations.iter().any(|row| row.aim == Aim::AtLeast);
+    let solver =
+        LevenbergMarquardt::new().with_ftol(ROUND_ACCURACY).with_xtol(ROUND_ACCURACY).with_patience(PATIENCE);
     let mut best: Option<Solution> = None;
-    let starts = if observations.len() > TABLE_ROWS { STARTS_OF_MANY } else { STARTS };
-    for start in 0..starts {
-        let x = starting_point(form, &unknowns, observations, start);
-        let mut problem = Problem::new(form, observations, channel_peak, &x);
-        let solver = LevenbergMarquardt::new()
-            .with_ftol(ROUND_ACCURACY)
-            .with_xtol(ROUND_ACCURACY)
-            .with_patience(PATIENCE);
-        let (mut least, mut idle) = (f64::INFINITY, 0);
-        for _ in 0..ROUNDS {
-            (problem, _) = solver.minimize(problem);
-            let Some(solution) = solution(form, &problem, observations, channel_peak) else { break };
-            let worst = solution.worst;
-            let done = worst <= tolerance || observations.len() > TABLE_ROWS || has_limits;
-            reweight(&mut problem.weights, observations, &solution);
-            if best.as_ref().is_none_or(|best| solution.is_better_than(best, tolerance)) {
-                best = Some(solution);
-            }
-            (least, idle) = if worst < PROGRESS * least { (worst, 0) } else { (least, idle + 1) };
-            if done || idle == IDLE_ROUNDS {
-                break;
-            }
+    let (mut least, mut idle) = (f64::INFINITY, 0);
+    for _ in 0..ROUNDS {
+        (problem, _) = solver.minimize(problem);
+        let Some(solution) = solution(problem.form(), &problem, observations, channel_peak) else { break };
+        let worst = solution.worst;
+        let done = worst <= tolerance || observations.len() > TABLE_ROWS || has_limits;
+        reweight(&mut problem.weights, observations, &solution);
+        if best.as_ref().is_none_or(|best| solution.is_better_than(best, tolerance)) {
+            best = Some(solution);
+        }
+        (least, idle) = if worst < PROGRESS * least { (worst, 0) } else { (least, idle + 1) };
+        if done || idle == IDLE_ROUNDS {
+            break;
         }
     }
     best
@@ -153,17 +167,17 @@ impl Solution {
         if self.log_ratios.len() > TABLE_ROWS {
             self.rms < other.rms
         } else if self.worst.max(other.worst) <= tolerance {
-            self.improbability(tolerance) < other.improbability(tolerance)
+            self.cost(tolerance) < other.cost(tolerance)
         } else {
             self.worst < other.worst
         }
     }
 
     /// Sum of the squared errors in units of the tolerance, and of the squared surprises.
-    pub(crate) fn improbability(&self, tolerance: f64) -> f64 {
+    pub(crate) fn cost(&self, tolerance: f64) -> f64 {
         let rows: f64 = self.errors.iter().map(|error| (error / tolerance).powi(2)).sum();
         let numbers = self.form.unknowns().into_iter().zip(&self.x);
-        rows + numbers.map(|(unknown, x)| unknown.surprise(*x).powi(2)).sum::<f64>()
+        rows + numbers.map(|(unknown, x)| unknown.prior_residual(*x).powi(2)).sum::<f64>()
     }
 
     /// The numbers that were free.

@@ -8,8 +8,8 @@ use serde_json::{Value, json};
 
 use super::Metadata;
 use crate::half_power::roughness_from_half_power_angle;
-use crate::table::Need;
-use crate::{Error, Table};
+use crate::table::csv_text;
+use crate::{Error, Limit, Table, Unit};
 
 /// The greatest coefficient that the format can hold, cd/lx/m2.
 pub const MAX_COEFFICIENT: f64 = 5000.0;
@@ -105,15 +105,20 @@ impl OpenMaterial {
     /// # Errors
     /// Angles that a table can't have.
     pub fn table(&self, assumption: &Assumption) -> Result<Table, Error> {
-        let quoted = |text: &str| format!("\"{}\"", text.replace('"', "\"\"").replace(['\r', '\n'], " "));
         let Assumption { observation_deg, entrance_deg, .. } = assumption;
-        let text = format!(
-            "class,observation_deg,entrance_deg,value,unit,limit,source\n{},{observation_deg},{entrance_deg},{},cd/lx/m2,typical,{}\n",
-            quoted(&self.name),
-            self.coefficient,
-            quoted(&self.sources)
-        );
-        Table::parse(text.as_bytes(), "OpenMATERIAL 3D", Need::Values)
+        let header = ["class", "observation_deg", "entrance_deg", "value", "unit", "limit", "source"];
+        let one_line = |text: &str| text.replace(['\r', '\n'], " ");
+        let row = [
+            one_line(&self.name),
+            observation_deg.to_string(),
+            entrance_deg.to_string(),
+            self.coefficient.to_string(),
+            Unit::CandelaPerLuxSquareMetre.to_string(),
+            Limit::Typical.name().to_owned(),
+            one_line(&self.sources),
+        ];
+        let text = csv_text(&header, std::iter::once(row.to_vec()));
+        Table::parse_values(text.as_bytes(), "OpenMATERIAL 3D")
     }
 }
 

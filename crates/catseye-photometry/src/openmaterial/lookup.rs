@@ -100,7 +100,7 @@ impl BrdfTable {
 
     /// The bands by rising wavelength.
     fn checked(&self, metadata: &Metadata) -> Result<Vec<Band>, Error> {
-        let fail = |problem: String| Error::Table { table: format!("{}_brdf.xompt", metadata.name), problem };
+        let fail = |problem: String| Error::Table { table: metadata.name.clone(), problem };
         let mut bands = self.bands.clone();
         bands.sort_by(|a, b| a.wavelength_nm.total_cmp(&b.wavelength_nm));
         if bands.is_empty() {

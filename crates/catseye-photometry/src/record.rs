@@ -1,7 +1,8 @@
-//! From the cells of a record to a row: every check that concerns one row.
+//! From a record of a table to a row: every check that concerns one row.
 
 use crate::quantity::ROAD_COSINE;
-use crate::{Error, Limit, Need, Quantity, Row, Unit};
+use crate::table::Need;
+use crate::{Error, Limit, Quantity, Row, Unit};
 
 /// The columns that have a meaning.
 const MEANINGFUL: [&str; 11] =
@@ -48,14 +49,14 @@ impl Columns {
 
 /// A record's place.
 #[derive(Clone, Copy, Debug)]
-pub(crate) struct Cells<'a> {
+pub(crate) struct Record<'a> {
     pub(crate) table: &'a str,
     pub(crate) line: usize,
     pub(crate) columns: &'a Columns,
     pub(crate) header: &'a [String],
 }
 
-impl Cells<'_> {
+impl Record<'_> {
     /// The row's meaning.
     pub(crate) fn row(&self, cells: Vec<String>, need: Need) -> Result<Row, Error> {
         if cells.len() != self.header.len() {
@@ -208,7 +209,7 @@ impl Cells<'_> {
 
 /// The unit that would make a value plausible, if one would.
 fn way_out(quantity: Quantity, unit: Unit, value: f64, [least, most]: [f64; 2]) -> String {
-    let written = unit.from_si(value);
+    let written = unit.of_si(value);
     let fits = |other: &Unit| {
         *other != unit && other.measures(quantity) && (least..=most).contains(&other.to_si(written))
     };

@@ -1,5 +1,4 @@
 //! Promise: measured BRDFs are read as what they are, and files that are none are refused.
-#![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 use catseye::{Lobe as _, Params, Reciprocal, Vec3};
 use catseye_photometry::brdf::{Brdf, Cosine, Selection, Skipped, metrics};

@@ -1,10 +1,12 @@
 //! Tables are read as they are meant, and whatever is wrong with one is said with its place and the way out.
 
-use catseye_photometry::{Limit, Need, Quantity, Table, Unit};
+use std::time::{Duration, Instant};
+
+use catseye_photometry::{Limit, Quantity, Table, Unit};
 use proptest::prelude::*;
 
 fn values(text: &str) -> Result<Table, String> {
-    Table::parse(text.as_bytes(), "t.csv", Need::Values).map_err(|error| error.to_string())
+    Table::parse_values(text.as_bytes(), "t.csv").map_err(|error| error.to_string())
 }
 
 #[test]
@@ -46,7 +48,7 @@ fn limits_come_from_their_column_or_from_the_standards_name() {
 #[test]
 fn geometries_need_no_values() {
     let text = "observation_deg,entrance_deg,rotation_deg,value\n0,0,,n/a\n0.2,-4,90,-1\n";
-    let table = Table::parse(text.as_bytes(), "t.csv", Need::Geometry).unwrap();
+    let table = Table::parse_geometries(text.as_bytes(), "t.csv").unwrap();
     assert_eq!(table.rows().len(), 2);
     assert_eq!(table.rows()[1].rotation_deg, 90.0);
     assert!(table.rows()[1].value.is_none());
@@ -124,10 +126,10 @@ fn bad_tables_are_refused_with_their_place() {
 #[test]
 fn what_is_no_text_is_refused() {
     let mut bytes = b"observation_deg,entrance_deg,value,unit\n0.2,5,70,cd/lx/m2\n0.2,\xff".to_vec();
-    let error = Table::parse(&bytes, "t.csv", Need::Values).unwrap_err().to_string();
+    let error = Table::parse_values(&bytes, "t.csv").unwrap_err().to_string();
     assert!(error.starts_with("t.csv:3: is not UTF-8"), "{error}");
     bytes.resize(17 << 20, b'x');
-    let error = Table::parse(&bytes, "t.csv", Need::Values).unwrap_err().to_string();
+    let error = Table::parse_values(&bytes, "t.csv").unwrap_err().to_string();
     assert!(error.starts_with("t.csv: is larger than 16 MiB"), "{error}");
 }
 
@@ -139,13 +141,29 @@ fn lines_are_counted_through_crlf_byte_order_mark_and_quoted_line_ends() {
     assert!(error.starts_with("t.csv:5: column value: is 0"), "{error}");
 }
 
+#[test]
+fn a_table_is_read_in_the_time_of_its_length() {
+    let table = |rows: usize| {
+        let mut text = "observation_deg,entrance_deg,value,unit\n".to_owned();
+        for row in 0..rows {
+            text += &format!("{},{},100,cd/lx/m2\n", 0.1 + 1e-4 * row as f64, -4);
+        }
+        text
+    };
+    // Where each row's line was counted from the start, this took minutes.
+    let (text, start) = (table(100_000), Instant::now());
+    let read = values(&text).unwrap();
+    assert!(start.elapsed() < Duration::from_secs(10), "{:?}", start.elapsed());
+    assert_eq!(read.rows()[99_999].line, 100_001);
+}
+
 proptest! {
     #[test]
     fn no_text_makes_the_reader_panic(cells in proptest::collection::vec("[-0-9.eEinfaN%,\"cd/lxmr2R_A \n]{0,8}", 0..12)) {
         let header = "observation_deg,entrance_deg,value,unit\n";
-        for need in [Need::Geometry, Need::Values] {
-            Table::parse(cells.join(",").as_bytes(), "t", need).ok();
-            if let Ok(table) = Table::parse((header.to_owned() + &cells.join(",")).as_bytes(), "t", need) {
+        for parse in [Table::parse_geometries, Table::parse_values] {
+            parse(cells.join(",").as_bytes(), "t").ok();
+            if let Ok(table) = parse((header.to_owned() + &cells.join(",")).as_bytes(), "t") {
                 for row in table.rows() {
                     prop_assert!(row.geometry().is_above_horizon());
                     prop_assert!(row.value.is_none_or(|value| value > 0.0 && value.is_finite()));
@@ -163,8 +181,8 @@ proptest! {
             let class = class.replace('"', "\"\"");
             text += &format!("{observation},{entrance},{value},cd/lx/m2 (R_A),\"{i}{class}\"\n");
         }
-        let Ok(table) = Table::parse(text.as_bytes(), "t", Need::Values) else { return Ok(()) };
-        let again = Table::parse(table.to_csv(&[]).as_bytes(), "t", Need::Values).unwrap();
+        let Ok(table) = Table::parse_values(text.as_bytes(), "t") else { return Ok(()) };
+        let again = Table::parse_values(table.to_csv(&[]).as_bytes(), "t").unwrap();
         prop_assert_eq!(&table, &again);
     }
 }

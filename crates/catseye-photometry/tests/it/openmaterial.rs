@@ -1,5 +1,4 @@
 //! Promise: what is written for ASAM `OpenMATERIAL` 3D is what its schemas (version 1.0.0) demand, and means the material.
-#![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 

@@ -1,10 +1,10 @@
 //! A fit gives back what data say, says what they leave open, and refuses what says nothing.
 
 use catseye::Model;
-use catseye_photometry::fit::{Aim, FitError, FitOptions, Observation, fit};
+use catseye_photometry::fit::{Aim, FitError, FitOptions, MAX_VALUES, Observation, fit};
 use catseye_photometry::standards::Catalogue;
 use catseye_photometry::{
-    Apertures, Colour, EntranceFactor, EntranceForm, Geometry, Goniometer, Limit, Quantity, RetroLobe,
+    Apertures, Colour, EntranceCosine, EntranceFactor, Geometry, Goniometer, Limit, Quantity, RetroLobe,
     Sheeting,
 };
 
@@ -14,7 +14,7 @@ fn values_of(sheeting: &Sheeting, angles: &[(f64, f64, f64)]) -> Vec<Observation
     let value = |&(observation, entrance, rotation): &(f64, f64, f64)| {
         let geometry = Geometry::from(Goniometer::from_degrees(observation, entrance, 0.0, rotation));
         let f = prepared.eval(geometry.wo, geometry.wi);
-        let factor = Quantity::RetroReflectionCoefficient.from_brdf(1.0, &geometry).unwrap_or(f64::NAN);
+        let factor = Quantity::RetroReflectionCoefficient.of_brdf(1.0, &geometry).unwrap_or(f64::NAN);
         let view = catseye_photometry::fit::View { wo: geometry.wo, wi: geometry.wi, factor };
         Observation { value: f * factor, aim: Aim::Equal, views: vec![view] }
     };
@@ -181,6 +181,9 @@ fn a_table_that_says_nothing_is_refused() {
     assert!(matches!(fit(&by_day, &with_base), Err(FitError::NotRetro)));
     let with_width = fit(&one, &FitOptions { roughness: Some(0.006), ..options }).unwrap();
     assert!((with_width.sheeting.lobes[0].strength / 0.06 - 1.0).abs() < 0.01, "{with_width:?}");
+    let many = vec![one[0].clone(); MAX_VALUES + 1];
+    let message = fit(&many, &options).unwrap_err().to_string();
+    assert_eq!(message, "10001 values are more than the 10000 that are fitted; keep one row in 2");
     for value in [0.0, -1.0, f64::NAN, f64::INFINITY] {
         let bad = vec![one[0].clone(), Observation { value, ..one[0].clone() }];
         assert!(matches!(fit(&bad, &options), Err(FitError::NotPositive { row: 2, .. })), "{value}");
@@ -202,7 +205,7 @@ fn a_table_that_says_nothing_is_refused() {
 #[test]
 fn the_reciprocal_form_is_reciprocal_and_the_same_in_the_retro_direction() {
     let view = Sheeting { lobes: vec![lobe(0.06, [0.2; 2], 3.0)], diffuse: 0.2, ..Sheeting::default() };
-    let reciprocal = Sheeting { form: EntranceForm::Reciprocal, ..view.clone() };
+    let reciprocal = Sheeting { form: EntranceCosine::Reciprocal, ..view.clone() };
     let (view, reciprocal) = (view.prepare().unwrap(), reciprocal.prepare().unwrap());
     let (a, b) = (catseye::Vec3::from_angles(0.5, 0.1), catseye::Vec3::from_angles(0.7, 0.3));
     assert_eq!(view.eval(a, a), reciprocal.eval(a, a));

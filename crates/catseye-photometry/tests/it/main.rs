@@ -1,0 +1,17 @@
+//! The promises of catseye-photometry, one file each.
+#![expect(clippy::unwrap_used, reason = "a test may panic")]
+
+mod aperture;
+mod brdf;
+mod colour;
+mod fit;
+mod geometry;
+mod half_power;
+mod integral;
+mod openmaterial;
+mod quantity;
+mod significant;
+mod standards;
+mod table;
+mod unit;
+mod verdict;
