@@ -96,7 +96,7 @@ fn sample() -> Result<String> {
         for x in columns {
             write!(out, ",{x}")?;
         }
-        writeln!(out, ",{:e},{}", s.pdf, s.lobe.name())?;
+        writeln!(out, ",{:e},{}", s.pdf, s.component.name())?;
     }
     Ok(out)
 }

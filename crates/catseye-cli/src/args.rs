@@ -70,7 +70,9 @@ impl ValueEnum for ModelArg {
         let help = match self.0 {
             Model::Reciprocal => "The proposal's lobe, with multiple-scattering compensation",
             Model::Edwards => "The paper's own lobe: albedo 1, not reciprocal",
-            Model::BackVector => "The microfacet lobe of MaterialX 1.39.5 with retroreflective = true",
+            Model::BackVector => {
+                "The microfacet lobe of MaterialX 1.39.5 with retroreflective = true, of the same peak"
+            }
         };
         Some(clap::builder::PossibleValue::new(self.0.name()).help(help))
     }

@@ -15,7 +15,6 @@ mod plot;
 mod point;
 mod progress;
 mod query;
-mod reference;
 mod report;
 mod table;
 mod traced;

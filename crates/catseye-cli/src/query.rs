@@ -139,18 +139,17 @@ impl Row<'_> {
         let Some(roughness_u) = self.number(name(0), u)? else {
             return Err(RowError::cell(name(0), "is empty".to_owned()));
         };
-        Ok(Params {
-            roughness_u,
-            roughness_v: self.number(name(1), v)?,
-            tint: [or(2, tint[0], T::ONE)?, or(3, tint[1], T::ONE)?, or(4, tint[2], T::ONE)?],
-            multiscatter_tint: [or(5, mr, T::ZERO)?, or(6, mg, T::ZERO)?, or(7, mb, T::ZERO)?],
-        })
+        let [r, g, b] = tint;
+        Ok(Params::isotropic(roughness_u)
+            .with_roughness_v(self.number(name(1), v)?)
+            .with_tint([or(2, r, T::ONE)?, or(3, g, T::ONE)?, or(4, b, T::ONE)?])
+            .with_multiscatter_tint([or(5, mr, T::ZERO)?, or(6, mg, T::ZERO)?, or(7, mb, T::ZERO)?]))
     }
 
     /// A library's complaint about the parameters, as one about a column.
     pub(crate) fn out_of_range(error: &catseye::ParamError) -> RowError {
         let channel = error.channel().map_or("", |channel| ["_r", "_g", "_b"][channel]);
-        let (value, range) = error.value_and_range();
+        let (value, range) = (error.value(), error.range());
         RowError::cell(&format!("{}{channel}", error.name()), format!("{value} is outside {range}"))
     }
 

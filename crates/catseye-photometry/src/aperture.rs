@@ -24,7 +24,6 @@ use catseye::Vec3;
 
 use crate::Error;
 use crate::gauss::gauss;
-use crate::geometry::cross;
 
 /// The widest aperture, radians: the rule is made for small angles.
 const MAX_DIAMETER: f64 = 0.35;
@@ -133,15 +132,9 @@ impl ApertureRule {
         wi: Vec3<f64>,
     ) -> impl Iterator<Item = (Vec3<f64>, Vec3<f64>, f64)> + '_ {
         let out_of_plane = common_normal(wo, wi);
-        let [receiver, source] = [wo, wi].map(|axis| (axis, cross(out_of_plane, axis)));
+        let [receiver, source] = [wo, wi].map(|axis| (axis, out_of_plane.cross(axis)));
         let moved = move |(axis, in_plane): (Vec3<f64>, Vec3<f64>), [x, y]: [f64; 2]| {
-            let along = |a: f64, p: f64, o: f64| a + p * x + o * y;
-            Vec3::new(
-                along(axis.x, in_plane.x, out_of_plane.x),
-                along(axis.y, in_plane.y, out_of_plane.y),
-                along(axis.z, in_plane.z, out_of_plane.z),
-            )
-            .normalized()
+            (axis + in_plane * x + out_of_plane * y).normalized()
         };
         self.points.iter().map(move |p| (moved(receiver, p.receiver), moved(source, p.source), p.weight))
     }
@@ -168,12 +161,12 @@ impl ApertureRule {
 
 /// A unit vector at right angles to both directions.
 fn common_normal(wo: Vec3<f64>, wi: Vec3<f64>) -> Vec3<f64> {
-    let normal = cross(wo, wi);
+    let normal = wo.cross(wi);
     if normal.dot(normal) > PARALLEL * PARALLEL {
         return normal.normalized();
     }
     let other = if wo.x.abs() < 0.5 { Vec3::new(1.0, 0.0, 0.0) } else { Vec3::new(0.0, 1.0, 0.0) };
-    cross(wo, other).normalized()
+    wo.cross(other).normalized()
 }
 
 /// Both disks' radii.

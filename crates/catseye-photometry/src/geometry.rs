@@ -223,7 +223,7 @@ impl From<Geometry> for Goniometer {
     fn from(geometry: Geometry) -> Self {
         let z = geometry.wi;
         let y = normal_of_half_plane(&geometry);
-        let x = cross(y, z);
+        let x = y.cross(z);
         // The retroreflector axis is the local z axis: its components in the laboratory are the z of x, y and z.
         let entrance_1 = if x.z.hypot(z.z) > DEGENERATE { x.z.atan2(z.z) } else { 0.0 };
         let entrance_2 = y.z.atan2(x.z.hypot(z.z));
@@ -241,8 +241,8 @@ impl From<Geometry> for Intrinsic {
         let sin_b = wi.x.hypot(wi.y);
         let away = if sin_b > DEGENERATE { [-wi.x / sin_b, -wi.y / sin_b] } else { [1.0, 0.0] };
         let across = Vec3::new(-away[1], away[0], 0.0);
-        let along = cross(across, wi);
-        let step = difference(wo, wi);
+        let along = across.cross(wi);
+        let step = wo - wi;
         let distant = step.dot(step).sqrt() > DEGENERATE;
         Self {
             observation: geometry.observation(),
@@ -274,29 +274,20 @@ impl From<Geometry> for RoadMarking {
 fn normal_of_half_plane(geometry: &Geometry) -> Vec3<f64> {
     let Geometry { wo, wi } = *geometry;
     // The difference is exact where it is small; the product of the directions themselves is not.
-    let from_receiver = cross(wi, difference(wo, wi));
-    let from_axis = cross(wi, Vec3::new(0.0, 0.0, 1.0));
-    let from_datum = cross(wi, Vec3::new(1.0, 0.0, 0.0));
+    let from_receiver = wi.cross(wo - wi);
+    let from_axis = wi.cross(Vec3::new(0.0, 0.0, 1.0));
+    let from_datum = wi.cross(Vec3::new(1.0, 0.0, 0.0));
     let is_long = |w: &Vec3<f64>| w.dot(*w).sqrt() > DEGENERATE;
     [from_receiver, from_axis].into_iter().find(is_long).unwrap_or(from_datum).normalized()
 }
 
 /// The angle between two unit vectors: 2 asin of half the chord, or from the sum where they are nearly opposite.
 fn angle_between(a: Vec3<f64>, b: Vec3<f64>) -> f64 {
-    let (apart, together) = (difference(a, b), Vec3::new(a.x + b.x, a.y + b.y, a.z + b.z));
+    let (apart, together) = (a - b, a + b);
     2.0 * apart.dot(apart).sqrt().atan2(together.dot(together).sqrt())
 }
 
 /// The angle between a unit vector and the z axis.
 fn polar_angle(w: Vec3<f64>) -> f64 {
     w.x.hypot(w.y).atan2(w.z)
-}
-
-fn difference(a: Vec3<f64>, b: Vec3<f64>) -> Vec3<f64> {
-    Vec3::new(a.x - b.x, a.y - b.y, a.z - b.z)
-}
-
-/// The vector product.
-pub(crate) fn cross(a: Vec3<f64>, b: Vec3<f64>) -> Vec3<f64> {
-    Vec3::new(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
 }

@@ -46,12 +46,7 @@ fn cone(axis: Vec3<f64>, radius: f64, value: impl Fn(Vec3<f64>) -> f64) -> f64 {
         let (sin, cos) = angle.sin_cos();
         let at = |k: usize| {
             let (sin_phi, cos_phi) = ((k as f64 + 0.5) / AZIMUTHS as f64 * TAU).sin_cos();
-            let (u, v) = (sin * cos_phi, sin * sin_phi);
-            let w = Vec3::new(
-                axis.x * cos + x.x * u + y.x * v,
-                axis.y * cos + x.y * u + y.y * v,
-                axis.z * cos + x.z * u + y.z * v,
-            );
+            let w = axis * cos + x * (sin * cos_phi) + y * (sin * sin_phi);
             if w.z > 0.0 { value(w) } else { 0.0 }
         };
         (0..AZIMUTHS).map(at).sum::<f64>() / AZIMUTHS as f64 * TAU * sin

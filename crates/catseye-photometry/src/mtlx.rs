@@ -2,7 +2,7 @@
 
 use std::io::Cursor;
 
-use catseye::Model;
+use catseye::{Model, width};
 use quick_xml::Writer;
 use quick_xml::events::{BytesDecl, BytesText, Event};
 
@@ -42,7 +42,7 @@ pub fn to_mtlx(sheeting: &Sheeting, text: &MaterialText<'_>) -> String {
         let part = format!("lobe_{}", i + 1);
         let tint = document.tint(&part, rgb(text.colour, lobe.strength), factors[i].as_deref());
         match sheeting.model {
-            Model::BackVector => document.back_vector(&part, lobe.roughness, &tint),
+            Model::BackVector => document.back_vector(&part, lobe.roughness.map(width), &tint),
             Model::Reciprocal | Model::Edwards => document.retro_reflective(&part, lobe.roughness, &tint),
         }
         parts.push(part);
@@ -230,11 +230,11 @@ impl Document {
     }
 
     /// Schlick's curve between two equal colours is no curve: the Fresnel factor is the tint.
-    fn back_vector(&mut self, name: &str, [u, v]: [f64; 2], tint: &Binding) {
+    fn back_vector(&mut self, name: &str, [alpha_u, alpha_v]: [f64; 2], tint: &Binding) {
         let inputs = [
             ("color0", "color3", tint.clone()),
             ("color90", "color3", tint.clone()),
-            ("roughness", "vector2", Binding::Value(format!("{}, {}", number(u), number(v)))),
+            ("roughness", "vector2", Binding::Value(format!("{}, {}", number(alpha_u), number(alpha_v)))),
             ("retroreflective", "boolean", Binding::Value("true".to_owned())),
             ("scatter_mode", "string", Binding::Value("R".to_owned())),
         ];

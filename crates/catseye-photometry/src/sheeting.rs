@@ -22,7 +22,7 @@ pub enum EntranceCosine {
 pub struct RetroLobe {
     /// Luminance of the tint at normal incidence.
     pub strength: f64,
-    /// Roughness along and across the datum axis: that of the proposal, or GGX's alpha in a back-vector lobe.
+    /// Roughness along and across the datum axis, the proposal's in every model.
     pub roughness: [f64; 2],
     /// How the strength depends on the entrance angle.
     pub entrance: EntranceFactor,

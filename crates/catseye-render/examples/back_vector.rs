@@ -24,12 +24,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let mut sheet = Image::new(3 * PIXELS, 2 * PIXELS);
     for (column, roughness) in [0.05, 0.15, 0.5_f32].into_iter().enumerate() {
         let r2 = roughness * roughness;
-        // The peak at normal incidence: of this node (2 / r^2 + 1) / (4 pi), of GGX 1 / (4 pi alpha^2).
-        let alpha = (r2 / (r2 + 2.0)).sqrt();
+        // The peak of both at normal incidence is (2 / r^2 + 1) / (4 pi).
         let exposure_ev = 1.8 - (2.0 / r2 + 1.0).log2();
-        for (row, (model, roughness)) in
-            [(Model::Reciprocal, roughness), (Model::BackVector, alpha)].into_iter().enumerate()
-        {
+        for (row, model) in [Model::Reciprocal, Model::BackVector].into_iter().enumerate() {
             let shown = sphere(model, roughness, exposure_ev)?;
             sheet.paste(&shown, column * PIXELS, row * PIXELS);
         }

@@ -11,7 +11,7 @@ use std::process::Command;
 use std::time::Duration;
 
 use catseye::batch::{self, SampleSlices};
-use catseye::{Lobe as _, LobeKind, Params, Reciprocal, Vec3};
+use catseye::{Component, Lobe as _, Params, Reciprocal, Vec3};
 use criterion::Criterion;
 
 /// Elements per iteration: all arrays together fit the first-level cache twice over at most.
@@ -25,7 +25,7 @@ struct Data {
     pairs: Vec<(Vec3<f32>, Vec3<f32>, [f32; 3])>,
     columns: [Vec<f32>; 9],
     out: [Vec<f32>; 7],
-    kinds: Vec<LobeKind>,
+    components: Vec<Component>,
 }
 
 impl Data {
@@ -49,7 +49,7 @@ impl Data {
             columns.iter_mut().zip(row).for_each(|(column, x)| column.push(x));
             pairs.push((wo, wi, u));
         }
-        Self { pairs, columns, out: [(); 7].map(|()| vec![0.0; N]), kinds: vec![LobeKind::Single; N] }
+        Self { pairs, columns, out: [(); 7].map(|()| vec![0.0; N]), components: vec![Component::Single; N] }
     }
 }
 
@@ -114,7 +114,7 @@ fn batch_eval_pdf(lobe: &Reciprocal<f32>, data: &mut Data) {
 fn batch_sample(lobe: &Reciprocal<f32>, data: &mut Data) {
     let [x, y, z, _, _, _, u1, u2, u3] = &data.columns;
     let [wx, wy, wz, r, g, b, pdf] = &mut data.out;
-    let out = SampleSlices { wi: [wx, wy, wz], weight: [r, g, b], pdf, lobe: &mut data.kinds };
+    let out = SampleSlices { wi: [wx, wy, wz], weight: [r, g, b], pdf, component: &mut data.components };
     batch::sample(black_box(lobe), [x, y, z], [u1, u2, u3], out);
 }
 

@@ -2,16 +2,16 @@
 
 use crate::albedo::Gauss;
 use crate::disk::{DIRAC_ROUGHNESS, above_horizon, is_above_horizon};
-use crate::{Lobe, LobeKind, ParamError, Params, Real, Sample, Vec3};
+use crate::params::{validate_colour, validate_share};
+use crate::{Component, Lobe, ParamError, Real, Sample, Vec3};
 
 /// GGX reflection with the view direction mirrored about the normal: what `conductor_bsdf` with
 /// `retroreflective = true` does, for a Fresnel factor equal to the tint.
 ///
 /// Portsmouth et al., "The Minimal Retroreflective Microfacet Model", JCGT 15(1), 2026. The distribution is the
 /// anisotropic one of Walter et al. 2007, shadowing the height-correlated one of Heitz 2014, sampling that of the
-/// visible normals as spherical caps, Dupuy and Benyoub 2023. The roughness is GGX's alpha, in `[0, 1]`, as on the
-/// MaterialX node: alpha = `width(roughness)` has the peak of [`crate::Reciprocal`] of that roughness at normal
-/// incidence. `multiscatter_tint` is not used.
+/// visible normals as spherical caps, Dupuy and Benyoub 2023. Its roughness is GGX's alpha; [`crate::AnyLobe`] has the
+/// conversion from the proposal's.
 #[derive(Clone, Copy, Debug)]
 pub struct BackVector<T> {
     alpha_u: T,
@@ -21,19 +21,19 @@ pub struct BackVector<T> {
 }
 
 impl<T: Real> BackVector<T> {
-    /// Validates and prepares the parameters.
+    /// The lobe of GGX's alpha along and across `tangent_u`, in `[0, 1]`, and of a tint in `[0, 1]` per channel.
     ///
     /// # Errors
-    /// The first parameter that is NaN or out of its range, which for the roughness is `[0, 1]`.
-    pub fn new(params: &Params<T>) -> Result<Self, ParamError> {
-        params.validate_roughness(Some(T::ONE), "[0, 1]")?;
-        params.validate()?;
+    /// The first of them that is NaN or out of its range.
+    pub fn new([alpha_u, alpha_v]: [T; 2], tint: [T; 3]) -> Result<Self, ParamError> {
+        validate_share("alpha_u", None, alpha_u)?;
+        validate_share("alpha_v", None, alpha_v)?;
+        validate_colour("tint", tint)?;
         let threshold = T::from_f64(DIRAC_ROUGHNESS);
-        let [alpha_u, alpha_v] = params.roughness();
         Ok(Self {
-            alpha_u: alpha_u.greater(threshold),
-            alpha_v: alpha_v.greater(threshold),
-            tint: params.tint,
+            alpha_u: alpha_u.max(threshold),
+            alpha_v: alpha_v.max(threshold),
+            tint,
             dirac: alpha_u < threshold && alpha_v < threshold,
         })
     }
@@ -65,11 +65,11 @@ impl<T: Real> BackVector<T> {
         let stretched = Vec3::new(-self.alpha_u * wo.x, -self.alpha_v * wo.y, wo.z).normalized();
         let (sin_phi, cos_phi) = u1.sin_cos_turns();
         let z = (T::ONE - u2) * (T::ONE + stretched.z) - stretched.z;
-        let sin_theta = (T::ONE - z * z).greater(T::ZERO).sqrt();
+        let sin_theta = (T::ONE - z * z).max(T::ZERO).sqrt();
         let h = Vec3::new(
             self.alpha_u * (sin_theta * cos_phi + stretched.x),
             self.alpha_v * (sin_theta * sin_phi + stretched.y),
-            (z + stretched.z).greater(T::from_f64(1e-12)),
+            (z + stretched.z).max(T::from_f64(1e-12)),
         );
         // Reflect the mirrored direction (-x, -y, z) about h: i = 2 (o'.h) h / (h.h) - o'.
         let k = T::TWO * (wo.z * h.z - wo.x * h.x - wo.y * h.y) / h.dot(h);
@@ -95,7 +95,7 @@ impl<T: Real> Lobe<T> for BackVector<T> {
             return None;
         }
         if self.dirac {
-            return Some(Sample { wi: wo, weight: self.tint, pdf: T::ONE, lobe: LobeKind::Dirac });
+            return Some(Sample { wi: wo, weight: self.tint, pdf: T::ONE, component: Component::Dirac });
         }
         let wi = self.sample_direction(wo, u1, u2);
         if !above_horizon(wo, wi) {
@@ -106,7 +106,7 @@ impl<T: Real> Lobe<T> for BackVector<T> {
             return None;
         }
         let scale = wi.z / pdf;
-        Some(Sample { wi, weight: f.map(|f| f * scale), pdf, lobe: LobeKind::Single })
+        Some(Sample { wi, weight: f.map(|f| f * scale), pdf, component: Component::Single })
     }
 
     /// By quadrature over the sampler, to about 1e-4: unlike the other lobes' it is slow.

@@ -19,7 +19,7 @@ use std::sync::OnceLock;
 
 use fearless_simd::{Level, Simd, dispatch};
 
-use crate::{Lobe, LobeKind, LobeVisitor, Real, Vec3};
+use crate::{Component, Lobe, LobeVisitor, Real, Vec3};
 
 /// Components of vectors or colours, each a slice over the batch.
 pub type Slices<'a, T> = [&'a [T]; 3];
@@ -37,7 +37,7 @@ pub struct SampleSlices<'a, T> {
     /// Density per steradian; 0 where there is no sample.
     pub pdf: &'a mut [T],
     /// What the directions came from.
-    pub lobe: &'a mut [LobeKind],
+    pub component: &'a mut [Component],
 }
 
 /// The instruction set, detected once.
@@ -165,24 +165,24 @@ impl<S: Simd, T: Real> LobeVisitor<T> for Draw<'_, S, T> {
     #[inline(always)]
     fn visit<L: Lobe<T> + Copy>(self, lobe: L) {
         let Self(_, wo, [u1, u2, u3], out) = self;
-        let ([x, y, z], [r, g, b], pdf, kind) = (out.wi, out.weight, out.pdf, out.lobe);
+        let ([x, y, z], [r, g, b], pdf, component) = (out.wi, out.weight, out.pdf, out.component);
         let n = common_length([
             common_length(wo.map(<[T]>::len)),
             common_length([u1.len(), u2.len(), u3.len()]),
             common_length([x.len(), y.len(), z.len()]),
             common_length([r.len(), g.len(), b.len()]),
             pdf.len(),
-            kind.len(),
+            component.len(),
         ]);
         for k in 0..n {
             let (wi, weight, density, drawn) = match lobe.sample(vector(wo, k), [u1[k], u2[k], u3[k]]) {
-                Some(s) => (s.wi, s.weight, s.pdf, s.lobe),
-                None => (Vec3::default(), [T::ZERO; 3], T::ZERO, LobeKind::Single),
+                Some(s) => (s.wi, s.weight, s.pdf, s.component),
+                None => (Vec3::default(), [T::ZERO; 3], T::ZERO, Component::Single),
             };
             [x[k], y[k], z[k]] = wi.into();
             [r[k], g[k], b[k]] = weight;
             pdf[k] = density;
-            kind[k] = drawn;
+            component[k] = drawn;
         }
     }
 }

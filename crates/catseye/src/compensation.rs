@@ -33,7 +33,7 @@ pub(crate) struct Compensation<T> {
 impl<T: Real> Compensation<T> {
     /// Prepares the lobe for the widths of the disk distribution.
     pub(crate) fn new(widths: [T; 2]) -> Self {
-        let fit = FastFit::fast(widths);
+        let fit = FastFit::new(widths);
         let first_ray = fit.ray([T::ONE, T::ZERO]);
         let table = [T::ZERO; NODES];
         let mut lobe = Self { fit, norm: T::ZERO, first_ray, cumulated: table, density: table };
@@ -118,8 +118,8 @@ impl<T: Real> Compensation<T> {
             }
         }
         let area = (u - start) * T::from_f64((NODES - 1) as f64);
-        let root = (low * low + T::TWO * (high - low) * area).greater(T::ZERO).sqrt();
-        let inside = (T::TWO * area / (low + root).greater(T::from_f64(1e-30))).lesser(T::ONE);
+        let root = (low * low + T::TWO * (high - low) * area).max(T::ZERO).sqrt();
+        let inside = (T::TWO * area / (low + root).max(T::from_f64(1e-30))).min(T::ONE);
         let parameter = (node + inside) * T::from_f64(1.0 / (NODES - 1) as f64);
         let (sin, cos) = (azimuth(parameter).0 * T::from_f64(0.5 * FRAC_1_PI)).sin_cos_turns();
         let [x, y] = self.fit.in_frame([cos, sin]);

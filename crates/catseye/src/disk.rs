@@ -17,7 +17,7 @@ pub(crate) fn is_above_horizon<T: Real>(w: Vec3<T>) -> bool {
 /// Whether both directions are above the horizon. False for NaN.
 #[inline(always)]
 pub(crate) fn above_horizon<T: Real>(wo: Vec3<T>, wi: Vec3<T>) -> bool {
-    wo.z.lesser(wi.z) > T::from_f64(HORIZON)
+    wo.z.min(wi.z) > T::from_f64(HORIZON)
 }
 
 /// The lobe's width `m = sqrt(1 / (n + 1)) = sqrt(r^2 / (r^2 + 2))` for the roughness `r` in `[0, inf]`.
@@ -35,7 +35,7 @@ pub fn width<T: Real>(roughness: T) -> T {
 pub(crate) fn widths<T: Real>(roughness: [T; 2]) -> Option<[T; 2]> {
     let threshold = T::from_f64(DIRAC_ROUGHNESS);
     let dirac = roughness.iter().all(|&r| r < threshold);
-    (!dirac).then(|| roughness.map(|r| width(r.greater(threshold))))
+    (!dirac).then(|| roughness.map(|r| width(r.max(threshold))))
 }
 
 /// The anisotropic disk distribution of Edwards et al. 2006, Eq. 26 and 32 with R = 1.
@@ -88,9 +88,9 @@ impl<T: Real> Disk<T> {
             self.inv_m_u * self.inv_m_u
         } else {
             let (ex, ey) = (dx * self.inv_m_u, dy * self.inv_m_v);
-            (ex * ex + ey * ey) / d2.greater(tiny)
+            (ex * ex + ey * ey) / d2.max(tiny)
         };
-        d2.log2_power(exponent, part.greater(tiny), whole).exp2_falling()
+        d2.log2_power(exponent, part.max(tiny), whole).exp2_nonpositive()
     }
 
     /// The density `pdf_ss = B z_o / (z_i (z_o+z_i))` of the drawn direction, given the power for the pair.
@@ -109,7 +109,7 @@ impl<T: Real> Disk<T> {
         let (ex, ey) = (self.m_u * cos, self.m_v * sin);
         let m2 = ex * ex + ey * ey;
         let rest = T::ONE - u2;
-        let d2 = -(u2.ln_one_minus(rest) * m2).exp_m1_falling();
+        let d2 = -(u2.ln_one_minus(rest) * m2).exp_m1_nonpositive();
         let scale = (d2 * (T::ONE / m2)).sqrt();
         let (dx, dy) = (ex * scale, ey * scale);
         // i = 2 (o.h)/(h.h) h - o, arranged as o plus a small step so that narrow lobes keep their digits.

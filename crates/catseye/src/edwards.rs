@@ -1,7 +1,7 @@
 //! The asymmetric lobe of the halfway-vector-disk paper.
 
 use crate::disk::{Disk, above_horizon, is_above_horizon};
-use crate::{Lobe, LobeKind, ParamError, Params, Real, Sample, Vec3};
+use crate::{Component, Lobe, ParamError, Params, Real, Sample, Vec3};
 
 /// The lobe of Edwards et al. 2006 as published: `f = B z_o / (z_i^2 (z_o + z_i))`, the density of its samples over
 /// the cosine.
@@ -42,14 +42,14 @@ impl<T: Real> Lobe<T> for Edwards<T> {
             return None;
         }
         let Some(disk) = &self.disk else {
-            return Some(Sample { wi: wo, weight: self.tint, pdf: T::ONE, lobe: LobeKind::Dirac });
+            return Some(Sample { wi: wo, weight: self.tint, pdf: T::ONE, component: Component::Dirac });
         };
         let drawn = disk.sample(wo, u1, u2);
         if !above_horizon(wo, drawn.wi) {
             return None;
         }
         let pdf = disk.density(drawn.power, wo, drawn.wi);
-        Some(Sample { wi: drawn.wi, weight: self.tint, pdf, lobe: LobeKind::Single })
+        Some(Sample { wi: drawn.wi, weight: self.tint, pdf, component: Component::Single })
     }
 
     #[inline]

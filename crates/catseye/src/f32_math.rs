@@ -46,7 +46,7 @@ fn exp_m1_reduced(r: f32) -> f32 {
 
 /// 2 to the power of x in `[-inf, 0]`, within 2 ulp; 0 below -115 and for NaN.
 #[inline(always)]
-pub(crate) fn exp2_falling(x: f32) -> f32 {
+pub(crate) fn exp2_nonpositive(x: f32) -> f32 {
     const C: [f32; 8] = exp2_series();
     let clamped = if x > LOWEST_POWER { x } else { LOWEST_POWER };
     let n_plus_round = clamped + ROUND;
@@ -70,7 +70,7 @@ const fn exp2_series() -> [f32; 8] {
 
 /// `exp(x) - 1` for x in `[-80, 0]`, within 2 ulp.
 #[inline(always)]
-pub(crate) fn exp_m1_falling(x: f32) -> f32 {
+pub(crate) fn exp_m1_nonpositive(x: f32) -> f32 {
     let n_plus_round = x * LOG2_E + ROUND;
     let n = n_plus_round - ROUND;
     let r = (x - n * LN_2_HIGH) - n * LN_2_LOW;
@@ -142,8 +142,8 @@ mod tests {
             let u = i as f32 / 1e6;
             let exact = f64::from(u);
             let x = -79.9 * u * u;
-            assert!(ulps(exp2_falling(x), f64::from(x).exp2()) < 2.0, "exp2 {x}");
-            assert!(ulps(exp_m1_falling(x), f64::from(x).exp_m1()) < 2.0, "exp_m1 {x}");
+            assert!(ulps(exp2_nonpositive(x), f64::from(x).exp2()) < 2.0, "exp2 {x}");
+            assert!(ulps(exp_m1_nonpositive(x), f64::from(x).exp_m1()) < 2.0, "exp_m1 {x}");
             let y = (1.0 - exact) as f32;
             assert!(ulps(ln_one_minus(u, y), (-exact).ln_1p()) < 4.0, "ln {u}");
             assert!(
@@ -158,16 +158,16 @@ mod tests {
         for exponent in 1..24 {
             let x = 0.7 * 0.5_f32.powi(exponent);
             assert!(ulps(ln_one_minus(x, 1.0 - x), (-f64::from(x)).ln_1p()) < 3.0, "ln {x}");
-            assert!(ulps(exp_m1_falling(-x), (-f64::from(x)).exp_m1()) < 2.0, "exp_m1 {x}");
+            assert!(ulps(exp_m1_nonpositive(-x), (-f64::from(x)).exp_m1()) < 2.0, "exp_m1 {x}");
         }
     }
 
     #[test]
     fn edges() {
-        assert_eq!(exp2_falling(0.0), 1.0);
-        assert_eq!(exp2_falling(f32::NEG_INFINITY), 0.0);
-        assert_eq!(exp2_falling(f32::NAN), 0.0);
-        assert_eq!(exp_m1_falling(0.0), 0.0);
+        assert_eq!(exp2_nonpositive(0.0), 1.0);
+        assert_eq!(exp2_nonpositive(f32::NEG_INFINITY), 0.0);
+        assert_eq!(exp2_nonpositive(f32::NAN), 0.0);
+        assert_eq!(exp_m1_nonpositive(0.0), 0.0);
         assert_eq!(log2_power(7.0, 0.0, 1.0, 1.0), 0.0);
         assert_eq!(sin_cos_turns(0.25), (1.0, 0.0));
         assert_eq!(fract(3.75), 0.75);

@@ -28,8 +28,9 @@
 //!   albedo are 0 there, and `sample` gives `None`. For a two-sided surface flip the frame first.
 //! - `eval` gives f in 1/sr, the cosine not included; `pdf` is per steradian; a sample's weight is `f cos / pdf`.
 //! - Roughness is the proposal's, in `[0, inf]`, not a microfacet alpha; infinity itself is legal. Where both
-//!   roughnesses are below [`DIRAC_ROUGHNESS`] the lobe is a Dirac distribution, which only `sample` meets; a single
-//!   one below it is raised to it.
+//!   roughnesses are below [`DIRAC_ROUGHNESS`] the lobe is a Dirac distribution; a single one below it is raised to it.
+//! - A Dirac distribution is met by `sample` only, which marks it as [`Component::Dirac`] with a density of 1; `eval`
+//!   and `pdf` are 0.
 //! - Parameters are validated once, by the constructors. After that no function panics or returns NaN for unit vectors,
 //!   whatever the parameters.
 //! - Every type is generic over [`Real`]: `f32` is what renderers run, `f64` the oracle. Both are one text.
@@ -60,7 +61,7 @@ mod vec3;
 pub use back_vector::BackVector;
 pub use disk::{DIRAC_ROUGHNESS, width};
 pub use edwards::Edwards;
-pub use lobe::{Lobe, LobeKind, LobeVisitor, Sample};
+pub use lobe::{Component, Lobe, LobeVisitor, Sample};
 pub use model::{AnyLobe, Model};
 pub use params::{ParamError, Params};
 pub use real::Real;

@@ -2,9 +2,9 @@
 
 use crate::{Real, Vec3};
 
-/// What produced a sampled direction.
+/// The part of a lobe that a sampled direction came from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum LobeKind {
+pub enum Component {
     /// Single scattering by a rough reflector.
     Single,
     /// The multiple-scattering compensation.
@@ -13,7 +13,7 @@ pub enum LobeKind {
     Dirac,
 }
 
-impl LobeKind {
+impl Component {
     /// The name used in CSV output: `single`, `multiple` or `dirac`.
     #[must_use]
     pub fn name(self) -> &'static str {
@@ -30,12 +30,13 @@ impl LobeKind {
 pub struct Sample<T> {
     /// The sampled direction, unit length, pointing away from the surface.
     pub wi: Vec3<T>,
-    /// `eval(wo, wi) * wi.z / pdf` per channel; for a Dirac lobe the reflected share of the energy.
+    /// `eval(wo, wi) * wi.z / pdf` per channel; of a Dirac component the reflected share of the energy.
     pub weight: [T; 3],
-    /// Density of `wi` per steradian, equal to `pdf(wo, wi)`; 1 for a Dirac lobe.
+    /// Density of `wi` per steradian, equal to `pdf(wo, wi)`; 1 where the component is [`Component::Dirac`], whose
+    /// density is none: test for the component, not for this number.
     pub pdf: T,
     /// What the direction came from.
-    pub lobe: LobeKind,
+    pub component: Component,
 }
 
 /// A BSDF lobe in the local frame.

@@ -1,8 +1,11 @@
 //! The choice among the lobes at run time.
 
 use crate::albedo::exact;
-use crate::disk::is_above_horizon;
+use crate::disk::{is_above_horizon, width};
 use crate::{BackVector, Edwards, Lobe, LobeVisitor, ParamError, Params, Real, Reciprocal, Sample, Vec3};
+
+/// Cosines and azimuths of the directions that the mean of other models than the reciprocal one is taken over.
+const AVERAGE: [u32; 2] = [128, 16];
 
 /// The lobes that can be chosen by name.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -12,7 +15,7 @@ pub enum Model {
     Reciprocal,
     /// The paper's own lobe: albedo exactly 1, not reciprocal.
     Edwards,
-    /// The microfacet lobe of MaterialX 1.39.5 with `retroreflective = true`. The roughness is GGX's alpha.
+    /// The microfacet lobe of MaterialX 1.39.5 with `retroreflective = true`, of the same peak. See [`AnyLobe::new`].
     BackVector,
 }
 
@@ -45,13 +48,20 @@ pub enum AnyLobe<T> {
 impl<T: Real> AnyLobe<T> {
     /// Validates and prepares the parameters for the model.
     ///
+    /// The roughness is the proposal's for every model. For the back-vector model it becomes GGX's alpha by
+    /// [`width`], which gives all three lobes the same value at normal incidence in the retro direction: alpha is
+    /// roughness / sqrt(2) where that is small, and 1 for an infinite roughness. That model has no compensation.
+    ///
     /// # Errors
     /// The first parameter that is NaN or out of its range.
     pub fn new(model: Model, params: &Params<T>) -> Result<Self, ParamError> {
+        params.validate()?;
         Ok(match model {
             Model::Reciprocal => Self::Reciprocal(Reciprocal::new(params)?),
             Model::Edwards => Self::Edwards(Edwards::new(params)?),
-            Model::BackVector => Self::BackVector(BackVector::new(params)?),
+            Model::BackVector => {
+                Self::BackVector(BackVector::new(params.roughness().map(width), params.tint)?)
+            }
         })
     }
 }
@@ -70,8 +80,33 @@ impl Model {
         if !is_above_horizon(wo) {
             return Ok([0.0; 3]);
         }
-        let rho = exact::directional(params.roughness(), wo);
-        Ok([0, 1, 2].map(|c| params.tint[c] * rho + params.multiscatter_tint[c] * (1.0 - rho)))
+        Ok(params.albedo(exact::directional(params.roughness(), wo)))
+    }
+
+    /// The cosine-weighted mean of [`Model::exact_albedo`] over the hemisphere, per channel: the share of diffuse
+    /// light that is reflected. The error is below 1e-9, for the back-vector model below 1e-3.
+    ///
+    /// # Errors
+    /// The first parameter that is NaN or out of its range.
+    pub fn exact_average_albedo(self, params: &Params<f64>) -> Result<[f64; 3], ParamError> {
+        if self == Self::Reciprocal {
+            params.validate()?;
+            return Ok(params.albedo(exact::average(params.roughness())));
+        }
+        let lobe = AnyLobe::new(self, params)?;
+        let [cosines, azimuths] = AVERAGE.map(f64::from);
+        let mut mean = [0.0; 3];
+        for i in 0..AVERAGE[0] {
+            for k in 0..AVERAGE[1] {
+                // Midpoints, evenly spread over the disk that the hemisphere is seen as.
+                let cos_theta = Real::sqrt((f64::from(i) + 0.5) / cosines);
+                let sin_theta = Real::sqrt(1.0 - cos_theta * cos_theta);
+                let (sin_phi, cos_phi) = ((f64::from(k) + 0.5) / azimuths).sin_cos_turns();
+                let albedo = lobe.albedo(Vec3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta));
+                mean = [0, 1, 2].map(|c| mean[c] + albedo[c] / (cosines * azimuths));
+            }
+        }
+        Ok(mean)
     }
 }
 

@@ -8,6 +8,7 @@ use crate::Real;
 ///
 /// `tangent_u` is not among them: it is the x axis of the local frame that directions are given in.
 #[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
 pub struct Params<T> {
     /// Roughness along `tangent_u`, in `[0, inf]`; 0 is a perfect retro-reflector. Default 0.
     pub roughness_u: T,
@@ -39,6 +40,12 @@ impl<T: Real> Params<T> {
         Self { roughness_u, roughness_v: Some(roughness_v), ..Self::default() }
     }
 
+    /// The same parameters with another `roughness_v`; `None` means "as `roughness_u`".
+    #[must_use]
+    pub fn with_roughness_v(self, roughness_v: Option<T>) -> Self {
+        Self { roughness_v, ..self }
+    }
+
     /// The same parameters with another `tint`.
     #[must_use]
     pub fn with_tint(self, tint: [T; 3]) -> Self {
@@ -57,36 +64,37 @@ impl<T: Real> Params<T> {
         [self.roughness_u, self.roughness_v.unwrap_or(self.roughness_u)]
     }
 
+    /// The albedo per channel where single scattering without a tint keeps the share `rho`.
+    #[inline(always)]
+    #[must_use]
+    pub fn albedo(&self, rho: T) -> [T; 3] {
+        [0, 1, 2].map(|c| self.tint[c] * rho + self.multiscatter_tint[c] * (T::ONE - rho))
+    }
+
+    /// Every number as another type, by `convert`.
+    #[must_use]
+    pub fn map<U>(self, mut convert: impl FnMut(T) -> U) -> Params<U> {
+        Params {
+            roughness_u: convert(self.roughness_u),
+            roughness_v: self.roughness_v.map(&mut convert),
+            tint: self.tint.map(&mut convert),
+            multiscatter_tint: self.multiscatter_tint.map(&mut convert),
+        }
+    }
+
     /// Checks every value against its range.
     ///
     /// # Errors
     /// The first value that is NaN or out of range, by name.
     pub fn validate(&self) -> Result<(), ParamError> {
-        self.validate_roughness(None, "[0, inf]")?;
-        for (name, colour) in [("tint", self.tint), ("multiscatter_tint", self.multiscatter_tint)] {
-            for (channel, value) in colour.into_iter().enumerate() {
-                if !(value >= T::ZERO && value <= T::ONE) {
-                    return Err(ParamError {
-                        name,
-                        channel: Some(channel),
-                        value: value.to_f64(),
-                        range: "[0, 1]",
-                    });
-                }
-            }
-        }
-        Ok(())
-    }
-
-    /// Checks both roughnesses against 0 and an upper limit, if any.
-    pub(crate) fn validate_roughness(&self, limit: Option<T>, range: &'static str) -> Result<(), ParamError> {
         let [roughness_u, roughness_v] = self.roughness();
         for (name, value) in [("roughness_u", roughness_u), ("roughness_v", roughness_v)] {
-            if value.is_nan() || value < T::ZERO || limit.is_some_and(|limit| value > limit) {
-                return Err(ParamError { name, channel: None, value: value.to_f64(), range });
+            if value.is_nan() || value < T::ZERO {
+                return Err(ParamError { name, channel: None, value: value.to_f64(), range: "[0, inf]" });
             }
         }
-        Ok(())
+        validate_colour("tint", self.tint)?;
+        validate_colour("multiscatter_tint", self.multiscatter_tint)
     }
 
     /// The nearest legal parameters: what a shading kernel does with values that it can't report.
@@ -94,15 +102,35 @@ impl<T: Real> Params<T> {
     /// Roughness below 0 or NaN becomes 0, colours are clamped to `[0, 1]`, a NaN colour becomes 0.
     #[must_use]
     pub fn clamped(self) -> Self {
-        // `greater` returns its argument where the value is NaN.
-        let colour = |c: [T; 3]| c.map(|x| x.greater(T::ZERO).lesser(T::ONE));
+        // `max` returns its argument where the value is NaN.
+        let colour = |c: [T; 3]| c.map(|x| x.max(T::ZERO).min(T::ONE));
         Self {
-            roughness_u: self.roughness_u.greater(T::ZERO),
-            roughness_v: self.roughness_v.map(|r| r.greater(T::ZERO)),
+            roughness_u: self.roughness_u.max(T::ZERO),
+            roughness_v: self.roughness_v.map(|r| r.max(T::ZERO)),
             tint: colour(self.tint),
             multiscatter_tint: colour(self.multiscatter_tint),
         }
     }
+}
+
+/// Checks every channel of a colour against `[0, 1]`.
+pub(crate) fn validate_colour<T: Real>(name: &'static str, colour: [T; 3]) -> Result<(), ParamError> {
+    for (channel, value) in colour.into_iter().enumerate() {
+        validate_share(name, Some(channel), value)?;
+    }
+    Ok(())
+}
+
+/// Checks a number against `[0, 1]`.
+pub(crate) fn validate_share<T: Real>(
+    name: &'static str,
+    channel: Option<usize>,
+    value: T,
+) -> Result<(), ParamError> {
+    if value >= T::ZERO && value <= T::ONE {
+        return Ok(());
+    }
+    Err(ParamError { name, channel, value: value.to_f64(), range: "[0, 1]" })
 }
 
 /// A parameter outside its range.
@@ -127,10 +155,16 @@ impl ParamError {
         self.channel
     }
 
-    /// The value, and the range it is outside of in the notation `[0, 1]`.
+    /// The value.
     #[must_use]
-    pub fn value_and_range(&self) -> (f64, &'static str) {
-        (self.value, self.range)
+    pub fn value(&self) -> f64 {
+        self.value
+    }
+
+    /// The range that the value is outside of, in the notation `[0, 1]`.
+    #[must_use]
+    pub fn range(&self) -> &'static str {
+        self.range
     }
 }
 

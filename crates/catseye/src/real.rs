@@ -60,10 +60,10 @@ pub trait Real:
     fn fract(self) -> Self;
     /// 2 to the power of a value in `[-inf, 0]`; 0 below -115, where denormals would cost more than they are worth.
     #[must_use]
-    fn exp2_falling(self) -> Self;
+    fn exp2_nonpositive(self) -> Self;
     /// `exp(self) - 1` for a value in `[-80, 0]`, accurate for small values.
     #[must_use]
-    fn exp_m1_falling(self) -> Self;
+    fn exp_m1_nonpositive(self) -> Self;
     /// `ln(1 - self)` for a value in `[0, 1)`, accurate for small values; `complement` is `1 - self`, from which the
     /// result is computed where `self` is near 1.
     #[must_use]
@@ -80,13 +80,13 @@ pub trait Real:
     /// The greater of two values; `other` where `self` is NaN.
     #[inline(always)]
     #[must_use]
-    fn greater(self, other: Self) -> Self {
+    fn max(self, other: Self) -> Self {
         if self > other { self } else { other }
     }
     /// The smaller of two values; `other` where `self` is NaN.
     #[inline(always)]
     #[must_use]
-    fn lesser(self, other: Self) -> Self {
+    fn min(self, other: Self) -> Self {
         if self < other { self } else { other }
     }
 }
@@ -142,11 +142,11 @@ impl Real for f64 {
         math!(self.fract(), self - libm::trunc(self))
     }
     #[inline(always)]
-    fn exp2_falling(self) -> Self {
+    fn exp2_nonpositive(self) -> Self {
         if self > -115.0 { math!(self.exp2(), libm::exp2(self)) } else { 0.0 }
     }
     #[inline(always)]
-    fn exp_m1_falling(self) -> Self {
+    fn exp_m1_nonpositive(self) -> Self {
         math!(self.exp_m1(), libm::expm1(self))
     }
     #[inline(always)]
@@ -205,12 +205,12 @@ impl Real for f32 {
         f32_math::fract(self)
     }
     #[inline(always)]
-    fn exp2_falling(self) -> Self {
-        f32_math::exp2_falling(self)
+    fn exp2_nonpositive(self) -> Self {
+        f32_math::exp2_nonpositive(self)
     }
     #[inline(always)]
-    fn exp_m1_falling(self) -> Self {
-        f32_math::exp_m1_falling(self)
+    fn exp_m1_nonpositive(self) -> Self {
+        f32_math::exp_m1_nonpositive(self)
     }
     #[inline(always)]
     fn ln_one_minus(self, complement: Self) -> Self {

@@ -2,7 +2,7 @@
 
 use crate::compensation::Compensation;
 use crate::disk::{Disk, above_horizon, is_above_horizon};
-use crate::{Lobe, LobeKind, LobeVisitor, ParamError, Params, Real, Sample, Vec3};
+use crate::{Component, Lobe, LobeVisitor, ParamError, Params, Real, Sample, Vec3};
 
 /// The BSDF of the `retro_reflective_bsdf` node: Edwards' lobe made reciprocal, plus the compensation of the energy
 /// it loses.
@@ -22,8 +22,7 @@ use crate::{Lobe, LobeKind, LobeVisitor, ParamError, Params, Real, Sample, Vec3}
 pub struct Reciprocal<T> {
     disk: Option<Disk<T>>,
     compensation: Compensation<T>,
-    tint: [T; 3],
-    multiscatter_tint: [T; 3],
+    params: Params<T>,
     /// Means of the tints over the channels, which lobes are chosen by.
     single: T,
     multiple: T,
@@ -51,8 +50,7 @@ impl<T: Real> Reciprocal<T> {
         Ok(Self {
             disk,
             compensation: Compensation::new(disk.map_or([T::ONE; 2], |disk| [disk.m_u, disk.m_v])),
-            tint: params.tint,
-            multiscatter_tint: params.multiscatter_tint,
+            params: *params,
             single: mean(params.tint),
             multiple: mean(params.multiscatter_tint),
         })
@@ -63,13 +61,7 @@ impl<T: Real> Reciprocal<T> {
     #[must_use]
     pub fn average_albedo(&self) -> [T; 3] {
         let loss = if self.disk.is_some() { self.compensation.average_loss() } else { T::ZERO };
-        self.tinted(loss)
-    }
-
-    /// The albedo per channel where single scattering loses the share `loss`.
-    fn tinted(&self, loss: T) -> [T; 3] {
-        let [t, m] = [self.tint, self.multiscatter_tint];
-        [0, 1, 2].map(|c| t[c] * (T::ONE - loss) + m[c] * loss)
+        self.params.albedo(T::ONE - loss)
     }
 
     /// The split for a direction that loses the share `loss`: in proportion to the energy of both lobes.
@@ -79,8 +71,8 @@ impl<T: Real> Reciprocal<T> {
         let energy = self.multiple + (self.single - self.multiple) * kept;
         // With as much tint as compensation, base = 0 and slope = 1 make f cos itself the density of what is kept.
         // More tint keeps some of the rejected samples, less tint rejects some of the accepted ones.
-        let lesser = self.single.lesser(self.multiple);
-        let slope = (lesser / energy.greater(T::from_f64(1e-30))).lesser(T::ONE);
+        let least = self.single.min(self.multiple);
+        let slope = (least / energy.max(T::from_f64(1e-30))).min(T::ONE);
         let less_tint = self.single < self.multiple;
         let base = if less_tint { T::ZERO } else { T::ONE - slope };
         let rejected = if less_tint { T::ONE - slope } else { T::ZERO };
@@ -98,19 +90,19 @@ impl<T: Real> Reciprocal<T> {
     ) -> ([T; 3], T) {
         // All quotients come from one division, in factors that stay in range; low / high^2 is
         // low sum (low / product)^2 / sum. They are finished while the power is still being computed.
-        let (sum, product, low) = (wo.z + wi.z, wo.z * wi.z, wo.z.lesser(wi.z));
+        let (sum, product, low) = (wo.z + wi.z, wo.z * wi.z, wo.z.min(wi.z));
         let inv = T::ONE / (sum * product);
         let steep = low * inv;
         let f = power * (norm * (low * sum) * (steep * steep));
         let pdf_single = power * (norm * inv * (wo.z * wo.z));
         if !COMPENSATED {
-            return (self.tint.map(|t| t * f), pdf_single);
+            return (self.params.tint.map(|t| t * f), pdf_single);
         }
         let loss_o = self.compensation.loss::<ISOTROPIC>(wo);
         let q = self.compensation.lobe::<ISOTROPIC>(wi);
         let split = self.split(loss_o);
         let f_ms = loss_o * q;
-        let [t, m] = [self.tint, self.multiscatter_tint];
+        let [t, m] = [self.params.tint, self.params.multiscatter_tint];
         let total = [t[0] * f + m[0] * f_ms, t[1] * f + m[1] * f_ms, t[2] * f + m[2] * f_ms];
         let pdf = split.base * pdf_single + (split.slope * f + split.multiple * q) * wi.z;
         (total, pdf)
@@ -139,34 +131,39 @@ impl<T: Real> Reciprocal<T> {
             return None;
         }
         let Some(disk) = &self.disk else {
-            return Some(Sample { wi: wo, weight: self.tint, pdf: T::ONE, lobe: LobeKind::Dirac });
+            return Some(Sample {
+                wi: wo,
+                weight: self.params.tint,
+                pdf: T::ONE,
+                component: Component::Dirac,
+            });
         };
         let mut drawn = disk.sample(wo, u1, u2);
-        let mut lobe = LobeKind::Single;
+        let mut component = Component::Single;
         // The quotient of f cos and the density drawn from is min(1, z_i/z_o)^3.
-        let ratio = (drawn.wi.z / wo.z).lesser(T::ONE);
+        let ratio = (drawn.wi.z / wo.z).min(T::ONE);
         if !COMPENSATED {
             if !above_horizon(wo, drawn.wi) {
                 return None;
             }
             let pdf = disk.density(drawn.power, wo, drawn.wi);
-            let weight = self.tint.map(|t| t * (ratio * ratio * ratio));
-            return Some(Sample { wi: drawn.wi, weight, pdf, lobe });
+            let weight = self.params.tint.map(|t| t * (ratio * ratio * ratio));
+            return Some(Sample { wi: drawn.wi, weight, pdf, component });
         }
         let split = self.split(self.compensation.loss::<ISOTROPIC>(wo));
         let keep = split.base + split.slope * (ratio * ratio * ratio);
         if u3 >= keep {
-            let fresh = ((u3 - keep) / (T::ONE - keep)).lesser(T::ONE);
+            let fresh = ((u3 - keep) / (T::ONE - keep)).min(T::ONE);
             drawn.wi = self.compensation.sample::<ISOTROPIC>(fresh, u1);
             drawn.power = disk.power::<ISOTROPIC>(wo, drawn.wi);
-            lobe = LobeKind::Multiple;
+            component = Component::Multiple;
         }
         if !above_horizon(wo, drawn.wi) {
             return None;
         }
         let (f, pdf) = self.eval_pdf_with::<COMPENSATED, ISOTROPIC>(disk.norm, drawn.power, wo, drawn.wi);
         let scale = drawn.wi.z / pdf;
-        Some(Sample { wi: drawn.wi, weight: f.map(|f| f * scale), pdf, lobe })
+        Some(Sample { wi: drawn.wi, weight: f.map(|f| f * scale), pdf, component })
     }
 
     #[inline(always)]
@@ -206,7 +203,7 @@ impl<T: Real> Lobe<T> for Reciprocal<T> {
             return [T::ZERO; 3];
         }
         let loss = if self.disk.is_some() { self.compensation.loss::<false>(wo) } else { T::ZERO };
-        self.tinted(loss)
+        self.params.albedo(T::ONE - loss)
     }
 
     fn is_dirac(&self) -> bool {

@@ -1,5 +1,7 @@
 //! The three-component vector that directions are given in.
 
+use core::ops::{Add, Mul, Neg, Sub};
+
 use crate::Real;
 
 /// A vector in the local shading frame: `z` along the shading normal, `x` along `tangent_u`.
@@ -38,12 +40,54 @@ impl<T: Real> Vec3<T> {
         self.x * other.x + self.y * other.y + self.z * other.z
     }
 
+    /// The vector product.
+    #[inline]
+    #[must_use]
+    pub fn cross(self, other: Self) -> Self {
+        Self::new(
+            self.y * other.z - self.z * other.y,
+            self.z * other.x - self.x * other.z,
+            self.x * other.y - self.y * other.x,
+        )
+    }
+
     /// The vector scaled to length 1. A zero vector gives NaN.
     #[inline]
     #[must_use]
     pub fn normalized(self) -> Self {
-        let inv = T::ONE / self.dot(self).sqrt();
-        Self::new(self.x * inv, self.y * inv, self.z * inv)
+        self * (T::ONE / self.dot(self).sqrt())
+    }
+}
+
+impl<T: Real> Add for Vec3<T> {
+    type Output = Self;
+    #[inline]
+    fn add(self, other: Self) -> Self {
+        Self::new(self.x + other.x, self.y + other.y, self.z + other.z)
+    }
+}
+
+impl<T: Real> Sub for Vec3<T> {
+    type Output = Self;
+    #[inline]
+    fn sub(self, other: Self) -> Self {
+        Self::new(self.x - other.x, self.y - other.y, self.z - other.z)
+    }
+}
+
+impl<T: Real> Mul<T> for Vec3<T> {
+    type Output = Self;
+    #[inline]
+    fn mul(self, factor: T) -> Self {
+        Self::new(self.x * factor, self.y * factor, self.z * factor)
+    }
+}
+
+impl<T: Real> Neg for Vec3<T> {
+    type Output = Self;
+    #[inline]
+    fn neg(self) -> Self {
+        Self::new(-self.x, -self.y, -self.z)
     }
 }
 

@@ -54,9 +54,9 @@ fn fits_keep_their_bounds() {
         let (sin, cos) = (std::f64::consts::TAU * random.uniform()).sin_cos();
         let (x, y) = (sine * cos, sine * sin);
         let exact = rule.loss([m_u, m_v], [x, y]);
-        let fast = FastFit::fast([m_u, m_v]).loss(x, y);
-        let compact = CompactFit::compact([m_u, m_v]).loss(x, y);
-        let fast_f32 = FastFit::fast([m_u as f32, m_v as f32]).loss(x as f32, y as f32);
+        let fast = FastFit::new([m_u, m_v]).loss(x, y);
+        let compact = CompactFit::new([m_u, m_v]).loss(x, y);
+        let fast_f32 = FastFit::new([m_u as f32, m_v as f32]).loss(x as f32, y as f32);
         let slot = usize::from(!isotropic);
         worst[slot] = worst[slot].max((fast - exact).abs()).max((f64::from(fast_f32) - exact).abs());
         worst[2 + slot] = worst[2 + slot].max((compact - exact).abs());

@@ -4,7 +4,7 @@
 mod common;
 
 use catseye::batch::{self, SampleSlices};
-use catseye::{AnyLobe, Lobe, LobeKind, Model, Params, Real, Vec3};
+use catseye::{AnyLobe, Component, Lobe, Model, Params, Real, Vec3};
 use common::Random;
 
 /// Nine columns: wo, wi and uniform numbers, among them directions below the horizon and NaN.
@@ -29,12 +29,12 @@ fn check<T: Real, L: Lobe<T> + Copy>(lobe: &L, n: usize) {
     let c = columns::<T>(n);
     let (wo, wi, u) = ([&c[0][..], &c[1], &c[2]], [&c[3][..], &c[4], &c[5]], [&c[6][..], &c[7], &c[8]]);
     let mut out = vec![vec![T::ONE; n]; 15];
-    let mut kinds = vec![LobeKind::Dirac; n];
+    let mut components = vec![Component::Dirac; n];
     let [a, b, c0, d, e, f, g, h, x, y, z, r, s, t, p] = &mut out[..] else { unreachable!() };
     batch::eval(lobe, wo, wi, [a, b, c0]);
     batch::pdf(lobe, wo, wi, d);
     batch::eval_pdf(lobe, wo, wi, [e, f, g], h);
-    let slices = SampleSlices { wi: [x, y, z], weight: [r, s, t], pdf: p, lobe: &mut kinds };
+    let slices = SampleSlices { wi: [x, y, z], weight: [r, s, t], pdf: p, component: &mut components };
     batch::sample(lobe, wo, u, slices);
     // NaN equals itself here.
     let same = |found: T, expected: T| found == expected || found.is_nan() && expected.is_nan();
@@ -65,7 +65,7 @@ fn check<T: Real, L: Lobe<T> + Copy>(lobe: &L, n: usize) {
         for (column, expected) in out.iter().zip(expected) {
             assert!(same(column[k], expected), "{} for {expected} at {k}: {wo:?} {wi:?} {u:?}", column[k]);
         }
-        assert_eq!(kinds[k], sample.map_or(LobeKind::Single, |s| s.lobe));
+        assert_eq!(components[k], sample.map_or(Component::Single, |s| s.component));
     }
 }
 

@@ -27,8 +27,8 @@ struct Grid {
 impl Grid {
     fn new(pole: Vec3<f64>, scale: f64) -> Self {
         let other = if pole.z < 0.9 { Vec3::new(0.0, 0.0, 1.0) } else { Vec3::new(1.0, 0.0, 0.0) };
-        let x = cross(other, pole).normalized();
-        Self { axes: [x, cross(pole, x), pole], scale }
+        let x = other.cross(pole).normalized();
+        Self { axes: [x, pole.cross(x), pole], scale }
     }
 
     /// Sine of half the angle from the pole at the ring parameter in `[0, 1]`, and its derivative.
@@ -41,15 +41,13 @@ impl Grid {
         let (h, _) = self.half_sine(ring);
         let s = 2.0 * h * (1.0 - h * h).max(0.0).sqrt();
         let (sin, cos) = (TAU * turn).sin_cos();
-        let c = [s * cos, s * sin, 1.0 - 2.0 * h * h];
         let [x, y, z] = self.axes;
-        let sum = |x: f64, y: f64, z: f64| c[0] * x + c[1] * y + c[2] * z;
-        Vec3::new(sum(x.x, y.x, z.x), sum(x.y, y.y, z.y), sum(x.z, y.z, z.z))
+        x * (s * cos) + y * (s * sin) + z * (1.0 - 2.0 * h * h)
     }
 
     fn cell(&self, w: Vec3<f64>) -> usize {
         let [x, y, pole] = self.axes;
-        let difference = Vec3::new(w.x - pole.x, w.y - pole.y, w.z - pole.z);
+        let difference = w - pole;
         let h = 0.5 * difference.dot(difference).sqrt();
         let ring = h / (self.scale + h * (1.0 - self.scale));
         let turn = (w.dot(y).atan2(w.dot(x)) / TAU).rem_euclid(1.0);
@@ -91,10 +89,6 @@ impl Grid {
         }
         sum
     }
-}
-
-fn cross(a: Vec3<f64>, b: Vec3<f64>) -> Vec3<f64> {
-    Vec3::new(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
 }
 
 /// p-value of the test; a table of both histograms goes to `target/evidence` where it is below the limit.

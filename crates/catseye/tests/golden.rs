@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use catseye::albedo::exact;
-use catseye::{Lobe as _, LobeKind, Params, Reciprocal, Vec3};
+use catseye::{Component, Lobe as _, Params, Reciprocal, Vec3};
 
 /// The rows of a file, by column.
 fn rows(name: &str) -> Vec<HashMap<String, String>> {
@@ -119,8 +119,8 @@ fn sample() {
             .into_iter()
             .zip(colour(row, "weight"))
             .for_each(|(found, expected)| assert_close(found, expected, 1e-7, row));
-        assert_eq!(s.lobe.name(), row["lobe"]);
-        compensated += usize::from(s.lobe == LobeKind::Multiple);
+        assert_eq!(s.component.name(), row["lobe"]);
+        compensated += usize::from(s.component == Component::Multiple);
     }
     assert!(compensated > 40, "{compensated}");
 }

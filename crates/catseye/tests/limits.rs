@@ -3,7 +3,7 @@
 mod common;
 
 use catseye::albedo::exact;
-use catseye::{AnyLobe, Edwards, Lobe as _, LobeKind, Model, Params, Reciprocal, Vec3};
+use catseye::{AnyLobe, Component, Edwards, Lobe as _, Model, Params, Reciprocal, Vec3};
 use common::{Random, directions, to_f32};
 
 #[test]
@@ -14,7 +14,7 @@ fn default_is_a_perfect_retro_reflector() {
             let lobe = AnyLobe::new(model, &Params::isotropic(roughness).with_tint(tint)).unwrap();
             for wo in directions() {
                 let s = lobe.sample(wo, [0.3, 0.7, 0.5]).unwrap();
-                assert_eq!((s.wi, s.weight, s.lobe), (wo, tint, LobeKind::Dirac));
+                assert_eq!((s.wi, s.weight, s.component), (wo, tint, Component::Dirac));
                 assert_eq!(lobe.eval_pdf(wo, wo), ([0.0; 3], 0.0));
                 assert_eq!(lobe.albedo(wo), tint);
                 assert!(lobe.is_dirac());

@@ -22,17 +22,11 @@ fn any_params() -> impl Strategy<Value = Params<f64>> {
     let roughness = || prop_oneof![any_number(), (-6.0..6.0_f64).prop_map(|x| 10.0_f64.powf(x))];
     let colour = || [any_number(), any_number(), any_number()];
     (roughness(), proptest::option::of(roughness()), colour(), colour()).prop_map(
-        |(u, v, tint, multiscatter_tint)| Params { roughness_u: u, roughness_v: v, tint, multiscatter_tint },
+        |(u, v, tint, multiscatter_tint)| {
+            let params = Params::isotropic(u).with_roughness_v(v);
+            params.with_tint(tint).with_multiscatter_tint(multiscatter_tint)
+        },
     )
-}
-
-fn convert<T: Real>(p: &Params<f64>) -> Params<T> {
-    Params {
-        roughness_u: T::from_f64(p.roughness_u),
-        roughness_v: p.roughness_v.map(T::from_f64),
-        tint: p.tint.map(T::from_f64),
-        multiscatter_tint: p.multiscatter_tint.map(T::from_f64),
-    }
 }
 
 /// Finite and not negative.
@@ -51,12 +45,8 @@ fn check<T: Real>(
     let [wo, wi] = [wo, wi].map(|w| Vec3::from(w.map(T::from_f64)));
     let u = u.map(|u| T::from_f64(u.min(0.999_999_9)));
     for model in Model::ALL {
-        let valid = AnyLobe::new(model, &convert::<T>(params));
-        let mut clamped = convert::<T>(params).clamped();
-        if model == Model::BackVector {
-            clamped.roughness_u = clamped.roughness_u.lesser(T::ONE);
-            clamped.roughness_v = clamped.roughness_v.map(|r| r.lesser(T::ONE));
-        }
+        let params = params.map(T::from_f64);
+        let (valid, clamped) = (AnyLobe::new(model, &params), params.clamped());
         let lobe = AnyLobe::new(model, &clamped).unwrap_or_else(|error| panic!("{clamped:?}: {error}"));
         for lobe in [lobe].into_iter().chain(valid.ok()) {
             let (f, pdf) = lobe.eval_pdf(wo, wi);

@@ -35,9 +35,7 @@ struct Curve {
 impl AlbedoFigure {
     /// Computes the curves.
     pub(crate) fn new(model: Model, roughnesses: Option<&[f64]>) -> anyhow::Result<Self> {
-        // The back-vector model's roughness is GGX's alpha and ends at 1.
-        let legal = if model == Model::BackVector { &ROUGHNESSES[..6] } else { &ROUGHNESSES };
-        let roughnesses = roughnesses.unwrap_or(legal);
+        let roughnesses = roughnesses.unwrap_or(&ROUGHNESSES);
         let mut curves = Vec::new();
         for (i, &roughness) in roughnesses.iter().enumerate() {
             let value = |step: u32| {
@@ -68,7 +66,9 @@ impl Figure for AlbedoFigure {
         let subtitle = match self.model {
             Model::Reciprocal => "multiscatter_tint 0, tint 1, equal roughness in both directions",
             Model::Edwards => "tint 1, equal roughness in both directions",
-            Model::BackVector => "tint 1, equal roughness in both directions; roughness is GGX's alpha",
+            Model::BackVector => {
+                "tint 1, equal roughness in both directions; GGX alpha of the same peak at 0°"
+            }
         };
         canvas.text(&title, (24.0, 32.0), Lettering::left(22.0, INK))?;
         canvas.text(subtitle, (24.0, 60.0), Lettering::left(15.0, MUTED))?;

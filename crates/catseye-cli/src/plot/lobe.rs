@@ -118,7 +118,8 @@ fn legend(model: Model) -> &'static str {
 impl LobeFigure {
     /// Computes the curves.
     pub(crate) fn new(request: Request) -> anyhow::Result<Self> {
-        let lobes = request.models.iter().map(|&model| Ok((model, prepare(model, request.roughness)?)));
+        let params = Params::anisotropic(request.roughness[0], request.roughness[1]);
+        let lobes = request.models.iter().map(|&model| Ok((model, AnyLobe::new(model, &params)?)));
         let lobes = lobes.collect::<Result<Vec<_>, ParamError>>()?;
         if lobes.iter().any(|(_, lobe)| lobe.is_dirac()) {
             bail!(
@@ -141,14 +142,6 @@ impl LobeFigure {
         };
         format!("Light sent back by the lobe of roughness {u}{across}{plane}")
     }
-}
-
-/// The model's lobe. The back-vector model's alpha is the one that gives it the others' peak at normal incidence.
-fn prepare(model: Model, roughness: [f64; 2]) -> Result<AnyLobe<f64>, ParamError> {
-    let params = Params::anisotropic(roughness[0], roughness[1]);
-    params.validate()?;
-    let [u, v] = if model == Model::BackVector { roughness.map(width) } else { roughness };
-    AnyLobe::new(model, &Params::anisotropic(u, v))
 }
 
 fn panel(request: &Request, lobes: &[(Model, AnyLobe<f64>)], theta_deg: f64) -> Panel {

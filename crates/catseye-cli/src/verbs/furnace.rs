@@ -14,7 +14,7 @@ use crate::failure::Usage;
 use crate::output::Output;
 use crate::plot::furnace::{FurnaceFigure, Tile};
 use crate::progress::Progress;
-use crate::{help, reference, report};
+use crate::{help, report};
 
 /// The proposal's columns.
 const ROUGHNESSES: [f64; 10] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9];
@@ -131,9 +131,9 @@ impl Args {
             },
             sphere: Check {
                 measured: mean_weight(&lobe, samples, disk_direction),
-                expected: reference::average(model, &params)?[0],
+                expected: model.exact_average_albedo(&params)?[0],
             },
-            image: furnace::sphere(AnyLobe::new(model, &single_precision(&params))?, TILE, self.spp)?,
+            image: furnace::sphere(AnyLobe::new(model, &params.map(|x| x as f32))?, TILE, self.spp)?,
         })
     }
 
@@ -151,15 +151,6 @@ impl Args {
             columns: ROUGHNESSES.len(),
             tiles: cells.iter().map(tile).collect(),
         }
-    }
-}
-
-fn single_precision(params: &Params<f64>) -> Params<f32> {
-    Params {
-        roughness_u: params.roughness_u as f32,
-        roughness_v: params.roughness_v.map(|roughness| roughness as f32),
-        tint: params.tint.map(|x| x as f32),
-        multiscatter_tint: params.multiscatter_tint.map(|x| x as f32),
     }
 }
 

@@ -39,7 +39,7 @@ impl Args {
 
 /// Which way the light goes: f cos in the plane of incidence, one panel for each angle, one curve for each model
 ///
-/// The back-vector model is drawn with the GGX alpha that gives it the peak of the others at normal incidence:
+/// The back-vector model has the GGX alpha that gives it the peak of the others at normal incidence:
 /// sqrt(r^2 / (r^2 + 2)) for the roughness r.
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::PLOT_LOBE)]

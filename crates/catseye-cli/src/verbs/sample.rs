@@ -38,10 +38,10 @@ impl Query for Draw {
     const ARGUMENT: Option<[&'static str; 3]> = Some(U);
 
     fn answer<T: Scalar>(&self, lobe: &AnyLobe<T>, row: Row<'_>) -> Result<Vec<Cell>, RowError> {
-        let Some(Sample { wi, weight, pdf, lobe }) = lobe.sample(row.wo()?, row.u()?) else {
+        let Some(Sample { wi, weight, pdf, component }) = lobe.sample(row.wo()?, row.u()?) else {
             return Ok([T::ZERO.cell(); 7].into_iter().chain([Cell::Word("none")]).collect());
         };
         let numbers = <[T; 3]>::from(wi).into_iter().chain(weight).chain([pdf]);
-        Ok(numbers.map(T::cell).chain([Cell::Word(lobe.name())]).collect())
+        Ok(numbers.map(T::cell).chain([Cell::Word(component.name())]).collect())
     }
 }

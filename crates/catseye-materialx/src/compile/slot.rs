@@ -121,13 +121,11 @@ impl Leaf {
         match self {
             Self::RetroReflective { roughness_u, roughness_v, tint, multiscatter_tint, tangent_u } => {
                 let roughness_v = roughness_v.float(r);
-                let params = Params {
-                    roughness_u: roughness_u.float(r),
+                let params = Params::isotropic(roughness_u.float(r))
                     // MaterialX has no default that refers to another input: a negative value means "as roughness_u".
-                    roughness_v: (roughness_v >= 0.0).then_some(roughness_v),
-                    tint: tint.at(r),
-                    multiscatter_tint: multiscatter_tint.at(r),
-                };
+                    .with_roughness_v((roughness_v >= 0.0).then_some(roughness_v))
+                    .with_tint(tint.at(r))
+                    .with_multiscatter_tint(multiscatter_tint.at(r));
                 let tangent_u = tangent_u.and_then(|tangent| unit(tangent.at(r)));
                 Closure::RetroReflective { weight, params, tangent_u }
             }
@@ -188,12 +186,10 @@ impl Leaf {
         let float = |slot: &Slot<1>, or: f32| if let Slot::Constant([x]) = *slot { x } else { or };
         let color = |slot: &Slot<3>| if let Slot::Constant(x) = *slot { x } else { [1.0; 3] };
         let roughness_v = float(roughness_v, -1.0);
-        let params = Params {
-            roughness_u: float(roughness_u, 0.0),
-            roughness_v: (roughness_v >= 0.0).then_some(roughness_v),
-            tint: color(tint),
-            multiscatter_tint: color(multiscatter_tint),
-        };
+        let params = Params::isotropic(float(roughness_u, 0.0))
+            .with_roughness_v((roughness_v >= 0.0).then_some(roughness_v))
+            .with_tint(color(tint))
+            .with_multiscatter_tint(color(multiscatter_tint));
         as_written(&params).validate().map(|_| ()).map_err(error)
     }
 

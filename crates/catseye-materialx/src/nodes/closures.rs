@@ -143,13 +143,7 @@ impl Accepts {
 
 /// The parameters to more digits, so that a refusal shows 1.1 and not 1.100000023841858, the f32 next to it.
 pub(crate) fn as_written(params: &Params<f32>) -> Params<f64> {
-    let written = |x: f32| x.to_string().parse().unwrap_or(f64::from(x));
-    Params {
-        roughness_u: written(params.roughness_u),
-        roughness_v: params.roughness_v.map(written),
-        tint: params.tint.map(written),
-        multiscatter_tint: params.multiscatter_tint.map(written),
-    }
+    params.map(|x| x.to_string().parse().unwrap_or(f64::from(x)))
 }
 
 const fn input(name: &'static str, default: Value<'static>) -> InputDef {

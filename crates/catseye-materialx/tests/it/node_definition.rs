@@ -28,7 +28,7 @@ fn ports(nodedef: &str) -> Vec<[String; 3]> {
 
 #[test]
 fn defaults_are_those_of_params() {
-    let Params { roughness_u, roughness_v, tint, multiscatter_tint } = Params::<f64>::default();
+    let Params { roughness_u, roughness_v, tint, multiscatter_tint, .. } = Params::<f64>::default();
     assert_eq!(roughness_v, None, "the library writes this as a negative value");
     let float = |x: f64| format!("{x:?}");
     let color = |[r, g, b]: [f64; 3]| format!("{r:?}, {g:?}, {b:?}");

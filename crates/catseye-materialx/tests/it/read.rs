@@ -215,7 +215,7 @@ fn roughness_has_no_upper_limit_and_a_negative_second_one_means_the_first() {
         let inputs = format!(
             r#"<input name="roughness_u" type="float" value="{u}" /><input name="roughness_v" type="float" value="{v}" />"#
         );
-        let expected = retro(Params { roughness_u, roughness_v, ..Params::default() });
+        let expected = retro(Params::isotropic(roughness_u).with_roughness_v(roughness_v));
         assert_eq!(parse(&single("retro_reflective_bsdf", &inputs)).bsdf, expected, "{u} {v}");
     }
 }

@@ -1,7 +1,5 @@
 //! Why data can't be fitted.
 
-use catseye::Model;
-
 use super::select::MAX_LOBES;
 use super::{FitOptions, Observation};
 use crate::significant;
@@ -90,9 +88,8 @@ pub(super) fn check(observations: &[Observation], options: &FitOptions) -> Resul
     };
     let lobes = options.lobes.unwrap_or(1);
     option("the number of lobes", lobes as f64, "[1, 3]", (1..=MAX_LOBES).contains(&lobes))?;
-    let widest = if options.model == Model::BackVector { 1.0 } else { f64::MAX };
-    let roughness = options.roughness.unwrap_or(widest);
-    option("the roughness", roughness, "(0, inf)", roughness > 0.0 && roughness <= widest)?;
+    let roughness = options.roughness.unwrap_or(1.0);
+    option("the roughness", roughness, "(0, inf)", roughness > 0.0 && roughness.is_finite())?;
     let ior = options.coat_ior.unwrap_or(1.5);
     option("the coat's index of refraction", ior, "(1, 4]", ior > 1.0 && ior <= 4.0)?;
     let percent = 100.0 * options.tolerance;

@@ -7,8 +7,6 @@ use crate::sheeting::{EntranceCosine, RetroLobe, Sheeting};
 
 /// Narrowest and widest roughness that is looked for: half-power angles of 0.03 degrees, and all there is.
 const ROUGHNESS: [f64; 2] = [5e-4, 3.0];
-/// The greatest GGX alpha of a back-vector lobe that is looked for.
-const WIDEST_ALPHA: f64 = 0.99;
 /// The weakest lobe, or base, that is looked for.
 const LEAST_STRENGTH: f64 = 1e-7;
 /// What sheeting has, and by which factor it varies: white sheeting and tapes of the standards have strengths of 0.02 to
@@ -135,10 +133,8 @@ impl Form {
         for lobe in 0..self.lobes {
             unknowns.push(log(Meaning::Strength(lobe), [LEAST_STRENGTH, 1.0], STRENGTH_PRIOR));
             if self.roughness.is_none() {
-                let widest = if self.model == Model::BackVector { WIDEST_ALPHA } else { ROUGHNESS[1] };
-                let bounds = [ROUGHNESS[0], widest];
                 let axes: &[_] = if self.anisotropic { &[Some(0), Some(1)] } else { &[None] };
-                let roughness = |&axis| log(Meaning::Roughness(lobe, axis), bounds, ROUGHNESS_PRIOR);
+                let roughness = |&axis| log(Meaning::Roughness(lobe, axis), ROUGHNESS, ROUGHNESS_PRIOR);
                 unknowns.extend(axes.iter().map(roughness));
             }
         }

@@ -36,19 +36,19 @@ impl Quadrature {
     #[must_use]
     pub fn loss_along(&self, c: f64, m: f64) -> f64 {
         let m2 = m * m;
-        let c2 = (c * c).lesser(1.0);
+        let c2 = (c * c).min(1.0);
         let top_ln = if c < 0.0 { c2.ln_one_minus(1.0 - c2) / m2 } else { 0.0 };
         if top_ln < -79.0 {
             return 0.0;
         }
-        let top = 1.0 + top_ln.exp_m1_falling();
+        let top = 1.0 + top_ln.exp_m1_nonpositive();
         // q = top (1-v^2)^3 resolves the square root of t at one end and the power of q at the other.
         self.along.integrate(0.0, 1.0, |v| {
             let v2 = v * v;
             let rest = 1.0 - v2;
-            let t = -((top_ln + 3.0 * v2.ln_one_minus(rest)) * m2).exp_m1_falling();
+            let t = -((top_ln + 3.0 * v2.ln_one_minus(rest)) * m2).exp_m1_nonpositive();
             let ratio = (1.0 - t) / (1.0 + t + 2.0 * c * Real::sqrt(t));
-            let kept = ratio.lesser(1.0);
+            let kept = ratio.min(1.0);
             6.0 * top * v * rest * rest * (1.0 - kept * kept * kept)
         })
     }
@@ -63,7 +63,7 @@ impl Quadrature {
         // psi in [0, pi] where the direction (cos psi, sin psi) is perpendicular to (along_u, along_v).
         let crossing = atan2(along_u.abs(), along_v.abs());
         let crossing = if along_u * along_v > 0.0 { PI - crossing } else { crossing };
-        let breaks = [0.0, crossing.lesser(FRAC_PI_2), crossing.greater(FRAC_PI_2), PI];
+        let breaks = [0.0, crossing.min(FRAC_PI_2), crossing.max(FRAC_PI_2), PI];
         let mut sum = 0.0;
         for pair in breaks.windows(2) {
             let (start, range) = (pair[0], pair[1] - pair[0]);

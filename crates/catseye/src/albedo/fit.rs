@@ -12,11 +12,8 @@
 //! distance of m; the hyperbola e has that shape, and the polynomials only bend it. In the isotropic case w = 0. The
 //! coefficients of P are sums of `T_a(2 m - 1) T_b(2 k - 1)` over a table, T being Chebyshev polynomials.
 
-use super::tables::{COMPACT, COMPACT_KAPPA, FAST, FAST_KAPPA};
+use super::tables::{CENTRE, COMPACT, COMPACT_KAPPA, FAST, FAST_KAPPA};
 use crate::Real;
-
-/// The middle of e's range, subtracted from it so that the coefficients are small and `f32` suffices for them.
-pub const CENTRE: f64 = 0.6;
 
 /// The fit for one roughness pair, with A, B, C and D coefficients in P0 to P3.
 #[derive(Clone, Copy, Debug)]
@@ -44,7 +41,7 @@ pub type CompactFit<T> = Fit<T, 5, 3, 1, 0>;
 impl<T: Real> FastFit<T> {
     /// The fit for the widths `m_u`, `m_v` of the lobe, each in `[0, 1]` and not both 0. See [`crate::width`].
     #[must_use]
-    pub fn fast([m_u, m_v]: [T; 2]) -> Self {
+    pub fn new([m_u, m_v]: [T; 2]) -> Self {
         Self::from_table(&FAST, FAST_KAPPA, [m_u, m_v])
     }
 }
@@ -52,7 +49,7 @@ impl<T: Real> FastFit<T> {
 impl<T: Real> CompactFit<T> {
     /// The fit for the widths `m_u`, `m_v` of the lobe, each in `[0, 1]` and not both 0. See [`crate::width`].
     #[must_use]
-    pub fn compact([m_u, m_v]: [T; 2]) -> Self {
+    pub fn new([m_u, m_v]: [T; 2]) -> Self {
         Self::from_table(&COMPACT, COMPACT_KAPPA, [m_u, m_v])
     }
 }
@@ -64,8 +61,8 @@ impl<T: Real, const A: usize, const B: usize, const C: usize, const D: usize> Fi
         kappa: f32,
         [m_u, m_v]: [T; 2],
     ) -> Self {
-        let m = m_u.greater(m_v);
-        let k = m_u.lesser(m_v) / m;
+        let m = m_u.max(m_v);
+        let k = m_u.min(m_v) / m;
         let (t_m, t_k) = (chebyshev::<T, N_M>(m), chebyshev::<T, N_K>(k));
         let mut coefficients = [T::ZERO; N];
         for (rows, t_m) in table.iter().zip(t_m) {
@@ -112,7 +109,7 @@ impl<T: Real, const A: usize, const B: usize, const C: usize, const D: usize> Fi
             let w = self.w_x * x2 + self.w_y * y2;
             loss += w * (horner(&self.p1, e) + w * (horner(&self.p2, e) + w * horner(&self.p3, e)));
         }
-        loss.greater(T::ZERO).lesser(T::ONE)
+        loss.max(T::ZERO).min(T::ONE)
     }
 }
 
@@ -195,10 +192,10 @@ impl<T: Real> Ray<T> {
         let mut t = start / (self.first + (self.first * self.first + self.range * start).sqrt());
         for _ in 0..NEWTON_STEPS {
             let excess = t * horner(&self.cumulated, t) - target;
-            t -= excess / horner(&self.density, t).greater(T::from_f64(1e-12));
-            t = t.greater(T::ZERO).lesser(T::ONE);
+            t -= excess / horner(&self.density, t).max(T::from_f64(1e-12));
+            t = t.max(T::ZERO).min(T::ONE);
         }
-        (t * (T::TWO * self.first + self.range * t)).lesser(T::ONE)
+        (t * (T::TWO * self.first + self.range * t)).min(T::ONE)
     }
 }
 
@@ -272,7 +269,7 @@ mod tests {
         let mut worst = 0.0_f64;
         for m_u in [1e-4, 0.004, 0.03, 0.1, 0.3, 0.6, 0.9, 1.0] {
             for k in [1e-3, 0.05, 0.2, 0.5, 1.0] {
-                let fit = FastFit::<f64>::fast([m_u, (k * m_u).max(NARROWEST)]);
+                let fit = FastFit::<f64>::new([m_u, (k * m_u).max(NARROWEST)]);
                 for phi in [0.0_f64, 0.4, 0.8, 1.2, 1.5, 1.57] {
                     let ray = fit.ray([phi.cos(), phi.sin()]);
                     for i in 0..1000 {
