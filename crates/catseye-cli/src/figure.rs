@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::Once;
 
 use anyhow::{anyhow, bail};
+use catseye_render::encode_png_rgb;
 use plotters::prelude::{BitMapBackend, DrawingBackend, IntoDrawingArea as _, SVGBackend};
 use plotters::style::{FontStyle, WHITE, register_font};
 
@@ -107,15 +108,7 @@ fn average(buffer: &[u8], width: usize, height: usize) -> Vec<u8> {
 
 /// Rows of RGB bytes as a PNG file.
 pub(crate) fn png((width, height): (u32, u32), rgb: &[u8]) -> anyhow::Result<Vec<u8>> {
-    let mut file = Vec::new();
-    let mut encoder = png::Encoder::new(&mut file, width, height);
-    encoder.set_color(png::ColorType::Rgb);
-    encoder.set_depth(png::BitDepth::Eight);
-    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-    let mut writer = encoder.write_header()?;
-    writer.write_image_data(rgb)?;
-    writer.finish()?;
-    Ok(file)
+    Ok(encode_png_rgb([width as usize, height as usize], rgb)?)
 }
 
 /// Makes the shipped font known to the drawing library.

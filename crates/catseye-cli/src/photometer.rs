@@ -4,9 +4,9 @@ use std::f64::consts::FRAC_PI_2;
 
 use anyhow::{anyhow, bail};
 use catseye_photometry::{
-    Geometry, Quantity, diffuse_luminance_coefficient, fractional_retro_reflectance, luminance,
+    Geometry, LUMINANCE, Quantity, diffuse_luminance_coefficient, fractional_retro_reflectance,
 };
-use catseye_render::Probe;
+use catseye_render::Specimen;
 use clap::ValueEnum;
 
 use crate::failure::Usage;
@@ -28,13 +28,18 @@ pub(crate) enum Channel {
 }
 
 impl Channel {
-    fn of(self, [r, g, b]: [f64; 3]) -> f64 {
+    /// What each channel of linear Rec. 709 counts for.
+    pub(crate) fn weights(self) -> [f64; 3] {
         match self {
-            Self::Luminance => luminance([r, g, b]),
-            Self::R => r,
-            Self::G => g,
-            Self::B => b,
+            Self::Luminance => LUMINANCE,
+            Self::R => [1.0, 0.0, 0.0],
+            Self::G => [0.0, 1.0, 0.0],
+            Self::B => [0.0, 0.0, 1.0],
         }
+    }
+
+    fn of(self, rgb: [f64; 3]) -> f64 {
+        rgb.iter().zip(self.weights()).map(|(x, weight)| x * weight).sum()
     }
 }
 
@@ -49,7 +54,7 @@ pub(crate) fn check_area(area_m2: Option<f64>) -> anyhow::Result<()> {
 /// A material on a goniometer, in closed form: source and receiver are points, far away.
 #[derive(Debug)]
 pub(crate) struct Photometer {
-    pub(crate) probe: Probe,
+    pub(crate) specimen: Specimen,
     pub(crate) channel: Channel,
     /// Area of a whole reflector in square metres, without which there is no `R_I`.
     pub(crate) area: Option<f64>,
@@ -58,7 +63,7 @@ pub(crate) struct Photometer {
 impl Photometer {
     /// The BSDF in 1/sr.
     pub(crate) fn brdf(&self, geometry: &Geometry) -> anyhow::Result<f64> {
-        Ok(self.channel.of(self.probe.eval(geometry.wo, geometry.wi)?))
+        Ok(self.channel.of(self.specimen.eval(geometry.wo, geometry.wi)?))
     }
 
     /// The quantity in its SI unit.

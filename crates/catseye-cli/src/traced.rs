@@ -43,13 +43,7 @@ impl Traced<'_> {
         let directions = [geometry.wo, geometry.wi];
         let reading =
             Retroreflectometer::default().measure(self.material, self.model, directions, self.samples, 0)?;
-        let [r, g, b] = reading.r_a;
-        let Estimate { value, standard_error } = match self.channel {
-            Channel::Luminance => reading.luminance,
-            Channel::R => r,
-            Channel::G => g,
-            Channel::B => b,
-        };
+        let Estimate { value, standard_error } = reading.r_a(self.channel.weights());
         Ok(Estimate { value: value * factor, standard_error: standard_error * factor })
     }
 }

@@ -5,15 +5,12 @@
 //! Spheres of roughness 0.05, 0.15 and 0.5; above this node, below the back vector. Each has a lamp of its own half way to
 //! the camera, so that the angle between lamp and eye grows away from the bright spot.
 
-use std::path::Path;
-
 use catseye::{Model, Params};
 use catseye_materialx::{Closure, Material};
 use catseye_render::light::SphereLight;
 use catseye_render::{
-    Camera, Error, Image, RenderSettings, SceneBuilder, Sphere, ToneMap, render, write_png,
+    Camera, Error, Image, RenderSettings, SceneBuilder, Sphere, ToneMap, encode_png, glam::Vec3, render,
 };
-use glam::Vec3;
 
 /// Columns and rows of a sphere's picture.
 const PIXELS: usize = 240;
@@ -31,7 +28,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             sheet.paste(&shown, column * PIXELS, row * PIXELS);
         }
     }
-    write_png(&sheet, &ToneMap::LINEAR, Path::new(&output))?;
+    std::fs::write(output, encode_png(&sheet, &ToneMap::LINEAR)?)?;
     Ok(())
 }
 

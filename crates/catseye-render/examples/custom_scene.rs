@@ -7,11 +7,10 @@ use std::path::PathBuf;
 use catseye::{AnyLobe, Model, Params};
 use catseye_render::light::{Environment, SphereLight};
 use catseye_render::{
-    Bsdf, Camera, Error, Mesh, RenderSettings, SceneBuilder, Sphere, ToneMap, render, write_png,
+    Bsdf, Camera, Mesh, RenderSettings, SceneBuilder, Sphere, ToneMap, encode_png, glam::Vec3, render,
 };
-use glam::Vec3;
 
-fn main() -> Result<(), Error> {
+fn main() -> Result<(), Box<dyn std::error::Error>> {
     let path = std::env::args().nth(1).map_or_else(|| PathBuf::from("spheres.png"), PathBuf::from);
     let eye = Vec3::new(0.0, 1.0, 6.0);
     let mut scene = SceneBuilder::new(Camera::perspective(eye, Vec3::Y * 0.4, Vec3::Y, 0.4));
@@ -29,5 +28,6 @@ fn main() -> Result<(), Error> {
     scene.light(Environment::Constant(Vec3::splat(0.02)));
     let settings = RenderSettings { width: 640, height: 360, ..RenderSettings::default() };
     let image = render(&scene.build()?, &settings, &|_| ())?;
-    write_png(&image, &ToneMap::default(), &path)
+    std::fs::write(path, encode_png(&image, &ToneMap::default())?)?;
+    Ok(())
 }

@@ -5,13 +5,11 @@
 //! The unit sphere around the origin is seen from (0, 0, 5) with a field of view of 26 degrees.
 //! Light of irradiance 3 comes from a direction 3 degrees to the right of the view's axis.
 
-use std::path::Path;
-
 use catseye::Model;
 use catseye_materialx::Document;
+use catseye_render::glam::Vec3;
 use catseye_render::light::DistantLight;
-use catseye_render::{Camera, Filter, RenderSettings, SceneBuilder, Sphere, render, write_exr};
-use glam::Vec3;
+use catseye_render::{Camera, Filter, PictureInfo, RenderSettings, SceneBuilder, Sphere, encode_exr, render};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -36,6 +34,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         filter,
         ..RenderSettings::default()
     };
-    write_exr(&render(&scene.build()?, &settings, &|_| ())?, Path::new(output))?;
+    let image = render(&scene.build()?, &settings, &|_| ())?;
+    std::fs::write(output, encode_exr(&image, &PictureInfo::default())?)?;
     Ok(())
 }

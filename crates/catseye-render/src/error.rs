@@ -1,19 +1,16 @@
 //! What can go wrong, in one enum.
 
-use std::io;
-use std::path::PathBuf;
-
-/// Why a scene could not be built, rendered or written.
+/// Why a scene could not be built, rendered or made a file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum Error {
-    /// A file could not be written; nothing was left in its place.
-    #[error("cannot write {}: {source}", path.display())]
-    Write {
-        /// The file asked for.
-        path: PathBuf,
-        /// What the system said.
-        source: io::Error,
+    /// A picture could not be made a file.
+    #[error("the picture can't be made a {format} file: {reason}")]
+    Encode {
+        /// The format.
+        format: &'static str,
+        /// What the encoder said.
+        reason: String,
     },
     /// A setting is outside its range.
     #[error("{name} is {value}, outside {range}")]

@@ -13,13 +13,11 @@ use crate::sampler::Sampler;
 use crate::{Camera, Error, Mesh, Ray, Scene, SceneBuilder, integrator};
 
 /// Parts of a measurement with random numbers of their own, whose scatter is the standard error.
-const REPLICATES: u32 = 32;
+const REPLICATES: usize = 32;
 /// Scatterings of a path: the specimen is flat and alone, so light meets it once.
 const MAX_DEPTH: u32 = 1;
 /// Tells the instrument's random numbers from those of a picture's pixels.
 const STREAM: u32 = 0x4e81_0e80;
-/// Luminance of linear Rec. 709 primaries (ITU-R BT.709-6, item 3.3).
-const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
 /// A retroreflectometer: lengths in metres.
 ///
@@ -53,23 +51,32 @@ pub struct Estimate {
     pub standard_error: f64,
 }
 
-/// What the instrument reads: coefficients of retro-reflection `R_A` in cd/lx/m2 (the same number as 1/sr).
+/// What the instrument reads, for any colour of the light.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Reading {
-    /// For each channel of linear Rec. 709, as if the light were of that colour.
-    pub r_a: [Estimate; 3],
-    /// For white light.
-    pub luminance: Estimate,
+    /// `R_A` per channel of linear Rec. 709, of each replicate.
+    parts: [[f64; 3]; REPLICATES],
     /// Cosine of the angle between the specimen's normal and the receiver.
     cos_view: f64,
 }
 
 impl Reading {
-    /// The coefficient of retro-reflected luminance `R_L = R_A / cos(nu)` for white light, in cd/m2/lx, where nu is the angle
-    /// between the specimen's normal and the receiver (ASTM E808).
+    /// The coefficient of retro-reflection `R_A` in cd/lx/m2 (the same number as 1/sr), its channels of linear
+    /// Rec. 709 summed with weights: one of them 1 for light of that colour, those of luminance for white light.
     #[must_use]
-    pub fn r_l(&self) -> Estimate {
-        let Estimate { value, standard_error } = self.luminance;
+    pub fn r_a(&self, weights: [f64; 3]) -> Estimate {
+        let count = REPLICATES as f64;
+        let values = self.parts.map(|part| part.iter().zip(weights).map(|(x, w)| x * w).sum::<f64>());
+        let value = values.iter().sum::<f64>() / count;
+        let variance = values.iter().map(|x| (x - value).powi(2)).sum::<f64>() / (count - 1.0);
+        Estimate { value, standard_error: (variance / count).sqrt() }
+    }
+
+    /// The coefficient of retro-reflected luminance `R_L = R_A / cos(nu)` in cd/m2/lx, where nu is the angle between
+    /// the specimen's normal and the receiver (ASTM E808); the weights are those of [`Reading::r_a`].
+    #[must_use]
+    pub fn r_l(&self, weights: [f64; 3]) -> Estimate {
+        let Estimate { value, standard_error } = self.r_a(weights);
         Estimate { value: value / self.cos_view, standard_error: standard_error / self.cos_view }
     }
 }
@@ -113,17 +120,15 @@ impl Retroreflectometer {
             return Err(Error::Setting { name: "samples", value: 0, range: "1 and above" });
         }
         if wo.z <= 0.0 || wi.z <= 0.0 {
-            let nothing = Estimate::default();
-            return Ok(Reading { r_a: [nothing; 3], luminance: nothing, cos_view: 1.0 });
+            return Ok(Reading { parts: [[0.0; 3]; REPLICATES], cos_view: 1.0 });
         }
         let setup = self.setup(material, model, wo, wi)?;
-        let paths = samples.div_ceil(REPLICATES);
-        // Collected in order: the sums are the same for any number of threads.
-        let parts: Vec<[f64; 3]> =
-            (0..REPLICATES).into_par_iter().map(|part| self.replicate(&setup, part, paths, seed)).collect();
-        let channel = |weights: [f64; 3]| estimate(&parts, weights);
-        let r_a = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(channel);
-        Ok(Reading { r_a, luminance: channel(LUMINANCE), cos_view: wo.z })
+        let paths = samples.div_ceil(REPLICATES as u32);
+        let mut parts = [[0.0; 3]; REPLICATES];
+        parts.par_iter_mut().enumerate().for_each(|(number, part)| {
+            *part = self.replicate(&setup, number as u32, paths, seed);
+        });
+        Ok(Reading { parts, cos_view: wo.z })
     }
 
     fn validate(&self) -> Result<(), Error> {
@@ -213,13 +218,4 @@ fn direction(name: &'static str, w: catseye::Vec3<f64>) -> Result<DVec3, Error> 
         return Ok(w / length);
     }
     Err(Error::Instrument { name, value: length, expected: "a vector of length 1" })
-}
-
-/// Mean of a weighted sum of the channels over the replicates, and the standard error of that mean.
-fn estimate(parts: &[[f64; 3]], weights: [f64; 3]) -> Estimate {
-    let count = parts.len() as f64;
-    let values = || parts.iter().map(|part| part.iter().zip(weights).map(|(x, w)| x * w).sum::<f64>());
-    let value = values().sum::<f64>() / count;
-    let variance = values().map(|x| (x - value).powi(2)).sum::<f64>() / (count - 1.0);
-    Estimate { value, standard_error: (variance / count).sqrt() }
 }

@@ -51,16 +51,16 @@ impl Path<'_> {
             return false;
         }
         let Some(hit) = hit else { return false };
-        let surface = self.scene.surface(&hit, self.ray.direction);
-        if surface.emission != Vec3::ZERO {
+        let material = self.scene.material(&hit, self.ray.direction);
+        if material.emission != Vec3::ZERO {
             // No light sampling looks for surfaces that glow: paths find them.
-            self.add(self.throughput * surface.emission, self.depth.saturating_sub(1));
+            self.add(self.throughput * material.emission, self.depth.saturating_sub(1));
         }
         if self.depth >= max_depth {
             return false;
         }
         self.throughput *= hit.color;
-        let shading = surface.bsdf().at(hit.frame, -self.ray.direction, hit.inside);
+        let shading = material.bsdf.at(hit.frame, -self.ray.direction, hit.inside);
         self.sample_lights(&hit, &shading, sampler);
         self.depth += 1;
         self.scatter(&hit, &shading, sampler)
@@ -168,7 +168,7 @@ impl Path<'_> {
         if passed <= 0.0 {
             return;
         }
-        let weight = sample.pdf.map_or(1.0, |light_pdf| power_heuristic(light_pdf * probability, pdf));
+        let weight = if sample.is_dirac { 1.0 } else { power_heuristic(sample.pdf * probability, pdf) };
         let share = passed * weight / probability;
         self.add(self.throughput * f_cos * sample.radiance_over_pdf * share, self.depth);
     }
@@ -198,7 +198,7 @@ impl Path<'_> {
         }
         self.ray = Ray::leaving(hit.position, hit.normal, sample.wi);
         self.origin = hit.position;
-        self.pdf = sample.pdf;
+        self.pdf = (!sample.is_dirac).then_some(sample.pdf);
         self.throughput != Vec3::ZERO
     }
 }

@@ -7,7 +7,7 @@
 //! ```
 //! use catseye::{Model, Params};
 //! use catseye_materialx::{Closure, Material};
-//! use catseye_render::{RenderSettings, Scene, render, write_png};
+//! use catseye_render::{RenderSettings, Scene, encode_png, render};
 //!
 //! let sheeting = Closure::RetroReflective {
 //!     weight: 1.0,
@@ -18,23 +18,24 @@
 //! let scene = Scene::preview(&material, Model::Reciprocal)?;
 //! let settings = RenderSettings { width: 32, height: 18, spp: 1, ..RenderSettings::default() };
 //! let image = render(&scene, &settings, &|_done| ())?;
-//! # let folder = tempfile::tempdir().unwrap();
-//! # let path = folder.path().join("preview.png");
-//! write_png(&image, scene.tone_map(), &path)?;
+//! let png: Vec<u8> = encode_png(&image, scene.tone_map())?;
 //! # Ok::<(), catseye_render::Error>(())
 //! ```
 //!
 //! # Conventions
 //! - Scenes are right-handed with y up; lengths are metres in the scenes that come with the crate. Colours are linear
 //!   Rec. 709. Light is in any radiometric or photometric system: radiance, irradiance and intensity agree.
+//! - Vectors are those of [`glam`], which is re-exported: its version is part of the interface.
 //! - Surfaces are two-sided: whichever side a ray meets is the upper side of its BSDF. Only dielectrics that transmit
 //!   know inside from outside.
 //! - A tangent points along increasing u of the texture coordinates, unless the material gives one in world space.
+//! - Densities are per steradian. That of a Dirac distribution is 1, and its sample says `is_dirac`.
 //! - A Dirac lobe (roughness 0) is met by scattered rays only, so it shows lights that have an extent, not points.
 
 mod accel;
 mod bsdf;
 mod camera;
+mod encode;
 mod error;
 mod filter;
 mod frame;
@@ -44,21 +45,24 @@ mod image;
 mod instrument;
 mod integrator;
 pub mod light;
+mod material;
 mod mesh;
-mod output;
-mod probe;
 mod ray;
 mod render;
 mod sampler;
 mod scene;
 mod scenes;
+mod specimen;
 mod sphere;
 mod surface;
 mod tone;
 mod triangle;
 
+pub use glam;
+
 pub use bsdf::{Bsdf, BsdfSample, Shading};
 pub use camera::Camera;
+pub use encode::{PictureInfo, encode_exr, encode_png, encode_png_rgb};
 pub use error::Error;
 pub use filter::Filter;
 pub use frame::Frame;
@@ -66,10 +70,9 @@ pub use image::Image;
 pub use instrument::{Estimate, Reading, Retroreflectometer};
 pub use light::Light;
 pub use mesh::Mesh;
-pub use output::{write_exr, write_png, write_whole};
-pub use probe::Probe;
 pub use ray::Ray;
 pub use render::{RenderSettings, render};
 pub use scene::{MaterialId, Scene, SceneBuilder};
+pub use specimen::Specimen;
 pub use sphere::Sphere;
 pub use tone::{ToneMap, encode_srgb};

@@ -1,12 +1,12 @@
 //! Everything that a picture is taken of.
 
-use std::cell::RefCell;
-
 use catseye::Model;
-use catseye_materialx::{Closure, Material, Patterns};
+use catseye_materialx::{Material, ShadingPoint};
 use glam::{Vec2, Vec3};
 
 use crate::accel::{Accel, Primitive};
+use crate::bsdf::Albedo;
+use crate::material::{MaterialAt, MaterialBsdf};
 use crate::surface::{Attributes, Hit, shading_point, texcoords};
 use crate::{Bsdf, Camera, Error, Light, Mesh, Ray, Sphere, ToneMap};
 
@@ -20,51 +20,9 @@ pub struct Scene {
     attributes: Vec<Attributes>,
     /// Of the corners of each primitive; none where no material asks.
     texcoords: Vec<[Vec2; 3]>,
-    surfaces: Vec<Surface>,
+    materials: Vec<MaterialBsdf>,
     lights: Vec<Box<dyn Light>>,
     opaque: bool,
-}
-
-/// A material as the scene needs it.
-#[derive(Debug)]
-struct Surface {
-    bsdf: Bsdf,
-    opacity: f32,
-    emission: Vec3,
-    /// What it is at each point, if it is not the same everywhere.
-    patterns: Option<Varying>,
-}
-
-/// A surface that is not the same everywhere.
-#[derive(Debug)]
-struct Varying {
-    patterns: Patterns,
-    model: Model,
-    /// Factor on its BSDF.
-    tint: Vec3,
-}
-
-/// A surface at a point.
-#[derive(Debug)]
-pub(crate) struct SurfaceAt<'a> {
-    bsdf: BsdfAt<'a>,
-    /// What it emits towards the viewer.
-    pub(crate) emission: Vec3,
-}
-
-#[derive(Debug)]
-enum BsdfAt<'a> {
-    Everywhere(&'a Bsdf),
-    Here(Bsdf),
-}
-
-impl SurfaceAt<'_> {
-    pub(crate) fn bsdf(&self) -> &Bsdf {
-        match &self.bsdf {
-            BsdfAt::Everywhere(bsdf) => bsdf,
-            BsdfAt::Here(bsdf) => bsdf,
-        }
-    }
 }
 
 /// A material of a scene under construction.
@@ -77,7 +35,7 @@ pub struct SceneBuilder {
     camera: Camera,
     tone_map: ToneMap,
     indirect_limit: f32,
-    surfaces: Vec<Surface>,
+    materials: Vec<MaterialBsdf>,
     meshes: Vec<(Mesh, MaterialId)>,
     spheres: Vec<(Sphere, MaterialId)>,
     lights: Vec<Box<dyn Light>>,
@@ -91,7 +49,7 @@ impl SceneBuilder {
             camera,
             tone_map: ToneMap::default(),
             indirect_limit: f32::INFINITY,
-            surfaces: Vec::new(),
+            materials: Vec::new(),
             meshes: Vec::new(),
             spheres: Vec::new(),
             lights: Vec::new(),
@@ -100,17 +58,17 @@ impl SceneBuilder {
 
     /// Adds an opaque material.
     pub fn material(&mut self, bsdf: Bsdf) -> MaterialId {
-        self.translucent_material(bsdf, 1.0)
+        self.material_with_opacity(bsdf, 1.0)
     }
 
     /// Adds a material that lets the share `1 - opacity` of light pass straight through.
-    pub fn translucent_material(&mut self, bsdf: Bsdf, opacity: f32) -> MaterialId {
-        self.surface(Surface { bsdf, opacity: opacity.clamp(0.0, 1.0), emission: Vec3::ZERO, patterns: None })
+    pub fn material_with_opacity(&mut self, bsdf: Bsdf, opacity: f32) -> MaterialId {
+        self.push(MaterialBsdf::constant(bsdf, opacity))
     }
 
-    fn surface(&mut self, surface: Surface) -> MaterialId {
-        self.surfaces.push(surface);
-        MaterialId(self.surfaces.len() as u32 - 1)
+    fn push(&mut self, material: MaterialBsdf) -> MaterialId {
+        self.materials.push(material);
+        MaterialId(self.materials.len() as u32 - 1)
     }
 
     /// Adds a material of a MaterialX document; its retro-reflective lobes are of the given model.
@@ -128,14 +86,7 @@ impl SceneBuilder {
         model: Model,
         tint: Vec3,
     ) -> Result<MaterialId, Error> {
-        let closure = tinted(material.bsdf.clone(), tint);
-        let patterns = material.patterns.clone();
-        Ok(self.surface(Surface {
-            bsdf: Bsdf::with_model(&closure, model)?,
-            opacity: material.opacity.clamp(0.0, 1.0),
-            emission: Vec3::from(material.emission),
-            patterns: patterns.map(|patterns| Varying { patterns, model, tint }),
-        }))
+        Ok(self.push(MaterialBsdf::new(material, model, tint)?))
     }
 
     /// Adds a mesh.
@@ -182,7 +133,7 @@ impl SceneBuilder {
         let mut primitives = Vec::new();
         let mut attributes = Vec::new();
         let mut corners_texcoords = Vec::new();
-        let varies = self.surfaces.iter().any(|surface| surface.patterns.is_some());
+        let varies = self.materials.iter().any(MaterialBsdf::varies);
         for (number, (mesh, material)) in self.meshes.iter().enumerate() {
             if let Some(problem) = mesh.problem() {
                 return Err(Error::Mesh { mesh: number, problem });
@@ -213,30 +164,11 @@ impl SceneBuilder {
                 true => order.iter().map(|&i| corners_texcoords[i as usize]).collect(),
                 false => Vec::new(),
             },
-            opaque: self.surfaces.iter().all(Surface::is_opaque),
-            surfaces: self.surfaces,
+            opaque: self.materials.iter().all(MaterialBsdf::is_opaque),
+            materials: self.materials,
             lights: self.lights,
         })
     }
-}
-
-/// A closure times a colour.
-fn tinted(closure: Closure, tint: Vec3) -> Closure {
-    if tint == Vec3::ONE {
-        return closure;
-    }
-    Closure::Multiply { closure: Box::new(closure), factor: tint.to_array() }
-}
-
-impl Surface {
-    fn is_opaque(&self) -> bool {
-        self.opacity >= 1.0 && self.patterns.as_ref().is_none_or(|varying| !varying.patterns.has_opacity())
-    }
-}
-
-thread_local! {
-    /// Room for the registers of patterns.
-    static REGISTERS: RefCell<Vec<[f32; 4]>> = const { RefCell::new(Vec::new()) };
 }
 
 impl Scene {
@@ -269,35 +201,23 @@ impl Scene {
         Some(Hit { primitive: index as u32, ..hit })
     }
 
-    /// The surface at a point that a ray of this direction meets.
-    pub(crate) fn surface(&self, hit: &Hit, direction: Vec3) -> SurfaceAt<'_> {
-        let surface = &self.surfaces[hit.material as usize];
-        if let Some(varying) = &surface.patterns {
-            let here = self.evaluate(&varying.patterns, hit, direction);
-            let emission = Vec3::from(here.emission);
-            // A point that can't be shaded is shaded like the default point, which can.
-            if let Ok(bsdf) = Bsdf::at_point(&tinted(here.bsdf, varying.tint), varying.model) {
-                return SurfaceAt { bsdf: BsdfAt::Here(bsdf), emission };
-            }
-        }
-        SurfaceAt { bsdf: BsdfAt::Everywhere(&surface.bsdf), emission: surface.emission }
-    }
-
-    fn evaluate(&self, patterns: &Patterns, hit: &Hit, direction: Vec3) -> catseye_materialx::Surface {
-        let index = hit.primitive as usize;
-        let point = shading_point(hit, direction, self.accel.primitive(index), self.texcoords[index]);
-        REGISTERS.with_borrow_mut(|registers| patterns.at_with(&point, registers))
+    /// The material at a point that a ray of this direction meets.
+    pub(crate) fn material(&self, hit: &Hit, direction: Vec3) -> MaterialAt<'_> {
+        let material = &self.materials[hit.material as usize];
+        // A point that can't be shaded is shaded like the default point, which can.
+        material
+            .at(|| self.shading_point(hit, direction), Albedo::Cached)
+            .unwrap_or_else(|_| material.anywhere())
     }
 
     /// The opacity of a surface point that a ray of this direction meets.
     pub(crate) fn opacity(&self, hit: &Hit, direction: Vec3) -> f32 {
-        let surface = &self.surfaces[hit.material as usize];
-        match &surface.patterns {
-            Some(varying) if varying.patterns.has_opacity() => {
-                self.evaluate(&varying.patterns, hit, direction).opacity
-            }
-            _ => surface.opacity,
-        }
+        self.materials[hit.material as usize].opacity(|| self.shading_point(hit, direction))
+    }
+
+    fn shading_point(&self, hit: &Hit, direction: Vec3) -> ShadingPoint {
+        let index = hit.primitive as usize;
+        shading_point(hit, direction, self.accel.primitive(index), self.texcoords[index])
     }
 
     /// The share of light that passes along the whole ray.

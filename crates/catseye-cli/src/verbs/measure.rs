@@ -8,7 +8,7 @@ use catseye_materialx::Material;
 use catseye_photometry::standards::{Catalogue, StandardClass};
 use catseye_photometry::verdict::{Verdict, verdicts};
 use catseye_photometry::{Row, Table};
-use catseye_render::{Estimate, Probe};
+use catseye_render::{Estimate, Specimen};
 use serde_json::{Map, Value, json};
 
 use crate::failure::Usage;
@@ -72,8 +72,8 @@ impl Args {
         check_area(self.area_m2)?;
         let output = self.output.as_deref().map(Output::new).transpose()?;
         let material = self.subject.load()?;
-        let probe = Probe::new(&material, self.subject.model())?;
-        let photometer = Photometer { probe, channel: self.channel, area: self.area_m2 };
+        let specimen = Specimen::new(&material, self.subject.model())?;
+        let photometer = Photometer { specimen, channel: self.channel, area: self.area_m2 };
         let text = match self.verdict {
             true => self.judge(&photometer)?,
             false if self.instrument => self.trace(&material)?,

@@ -8,7 +8,7 @@ use std::str::FromStr;
 use anyhow::bail;
 use catseye_photometry::openmaterial::{Assumption, Band, BrdfTable, Metadata, write_material};
 use catseye_photometry::{Geometry, Goniometer, Quantity};
-use catseye_render::Probe;
+use catseye_render::Specimen;
 use serde_json::json;
 
 use crate::failure::Usage;
@@ -68,8 +68,8 @@ impl Args {
         let output = Output::new(&self.output)?;
         let table_output = Output::new(&table_path)?;
         let material = self.subject.load()?;
-        let probe = Probe::new(&material, self.subject.model())?;
-        let photometer = Photometer { probe, channel: Channel::Luminance, area: None };
+        let specimen = Specimen::new(&material, self.subject.model())?;
+        let photometer = Photometer { specimen, channel: Channel::Luminance, area: None };
 
         let Self { observation_deg, entrance_deg, .. } = *self;
         let angles = Goniometer::from_degrees(observation_deg, entrance_deg, 0.0, 0.0);

@@ -6,7 +6,7 @@ use anyhow::bail;
 use catseye::{Lobe as _, Params, Reciprocal};
 use catseye_photometry::standards::{Catalogue, StandardClass};
 use catseye_photometry::{Geometry, Quantity, Row};
-use catseye_render::Probe;
+use catseye_render::Specimen;
 use clap::ArgGroup;
 
 use crate::args::ModelArg;
@@ -99,8 +99,8 @@ impl Args {
         };
         if let Some(path) = &self.document {
             let material = self.library.material(path, self.material.as_deref())?;
-            let probe = Probe::new(&material, self.model.0)?;
-            let photometer = Photometer { probe, channel: self.channel, area: None };
+            let specimen = Specimen::new(&material, self.model.0)?;
+            let photometer = Photometer { specimen, channel: self.channel, area: None };
             let title = format!("Coefficient of retro-reflection of {}", material.name);
             return Ok((title, Box::new(move |geometry| Ok(r_a(photometer.brdf(geometry)?, geometry)))));
         }

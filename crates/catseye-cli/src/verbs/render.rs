@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use anyhow::{Context as _, bail};
 use catseye_materialx::{Document, Look, Material};
-use catseye_render::{RenderSettings, Scene, ToneMap, render, write_exr, write_png};
+use catseye_render::{PictureInfo, RenderSettings, Scene, ToneMap, encode_exr, encode_png, render};
 use clap::ValueEnum;
 use serde_json::json;
 
@@ -94,13 +94,11 @@ impl Args {
         let progress = Progress::new("rendering", STEPS as u64);
         let image = render(&scene, &settings, &|share| progress.set((share * STEPS) as u64))?;
         drop(progress);
-        match format {
-            Format::Png => {
-                let shown = image.toned(scene.tone_map()).reduced(oversampling);
-                write_png(&shown, &ToneMap::LINEAR, output.path())
-            }
-            Format::Exr => write_exr(&image, output.path()),
-        }?;
+        let bytes = match format {
+            Format::Png => encode_png(&image.toned(scene.tone_map()).reduced(oversampling), &ToneMap::LINEAR),
+            Format::Exr => encode_exr(&image, &PictureInfo::default()),
+        };
+        output.write(&bytes?)?;
         self.report(&output.name(), started.elapsed().as_secs_f64())
     }
 

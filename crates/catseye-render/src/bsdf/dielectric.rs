@@ -6,12 +6,10 @@ use std::sync::{Arc, LazyLock, PoisonError, RwLock};
 use catseye_materialx::ScatterMode;
 use glam::Vec3;
 
-use super::albedo_table::{AlbedoTable, mean_over_square};
+use super::albedo::{AlbedoTable, mean_over_square};
 use super::fresnel::{fresnel_dielectric, refract};
-use super::ggx::Ggx;
+use super::ggx::{Ggx, SMOOTH_ALPHA};
 
-/// Alpha below which the interface is smooth: single precision can't resolve the lobe.
-const SMOOTH_ALPHA: f32 = 5e-4;
 /// Relative difference of the indices below which there is nothing to see and refraction goes straight on.
 const EQUAL_INDEX: f32 = 1e-3;
 
@@ -38,32 +36,24 @@ struct Shares {
     transmitted: AlbedoTable,
 }
 
+/// How accurate the shares of energy are.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Albedo {
+    /// Tabulated for the material.
+    Exact,
+    /// From a store of steps of the parameters: quick and a little off, for surfaces that vary.
+    Cached,
+}
+
 impl Dielectric {
-    pub(crate) fn new(tint: Vec3, ior: f32, alpha: [f32; 2], mode: ScatterMode) -> Self {
+    pub(crate) fn new(tint: Vec3, ior: f32, alpha: [f32; 2], mode: ScatterMode, albedo: Albedo) -> Self {
         let ior = if ior.is_finite() && ior > 0.01 { ior } else { 1.0 };
         let smooth = alpha[0].max(alpha[1]) < SMOOTH_ALPHA || (ior - 1.0).abs() < EQUAL_INDEX;
         let ggx = Ggx { alpha: alpha.map(|a| a.clamp(SMOOTH_ALPHA, 1.0)) };
-        let shares = Arc::new(shares(ior, ggx, smooth));
-        Self::with_shares(tint, ior, ggx, mode, smooth, shares)
-    }
-
-    /// As [`Self::new`], with shares of energy from a store: quick, and a little off. For surfaces that vary.
-    pub(crate) fn varying(tint: Vec3, ior: f32, alpha: [f32; 2], mode: ScatterMode) -> Self {
-        let ior = if ior.is_finite() && ior > 0.01 { ior } else { 1.0 };
-        let smooth = alpha[0].max(alpha[1]) < SMOOTH_ALPHA || (ior - 1.0).abs() < EQUAL_INDEX;
-        let ggx = Ggx { alpha: alpha.map(|a| a.clamp(SMOOTH_ALPHA, 1.0)) };
-        let shares = stored_shares(ior, (ggx.alpha[0] * ggx.alpha[1]).sqrt(), smooth);
-        Self::with_shares(tint, ior, ggx, mode, smooth, shares)
-    }
-
-    fn with_shares(
-        tint: Vec3,
-        ior: f32,
-        ggx: Ggx,
-        mode: ScatterMode,
-        smooth: bool,
-        shares: Arc<[Shares; 2]>,
-    ) -> Self {
+        let shares = match albedo {
+            Albedo::Exact => Arc::new(shares(ior, ggx, smooth)),
+            Albedo::Cached => stored_shares(ior, (ggx.alpha[0] * ggx.alpha[1]).sqrt(), smooth),
+        };
         Self {
             tint: tint.clamp(Vec3::ZERO, Vec3::ONE),
             ior,
@@ -154,14 +144,14 @@ impl Dielectric {
     /// The share of energy that is reflected or transmitted.
     pub(crate) fn albedo(&self, wo: Vec3, inside: bool) -> Vec3 {
         let shares = &self.shares[usize::from(inside)];
-        let reflected = if self.reflects { shares.reflected.look_up(wo) } else { 0.0 };
-        let transmitted = if self.transmits { shares.transmitted.look_up(wo) } else { 0.0 };
+        let reflected = if self.reflects { shares.reflected.look_up_direction(wo) } else { 0.0 };
+        let transmitted = if self.transmits { shares.transmitted.look_up_direction(wo) } else { 0.0 };
         self.tint * (reflected + transmitted)
     }
 
     /// The share of energy that goes on to what lies below, in MaterialX's sense: the tint doesn't count.
     pub(crate) fn throughput(&self, wo: Vec3, inside: bool) -> f32 {
-        let reflected = self.shares[usize::from(inside)].reflected.look_up(wo);
+        let reflected = self.shares[usize::from(inside)].reflected.look_up_direction(wo);
         match (self.reflects, self.transmits) {
             (true, false) => 1.0 - reflected,
             (false, true) => reflected,
@@ -175,7 +165,7 @@ fn shares(ior: f32, ggx: Ggx, smooth: bool) -> [Shares; 2] {
     let isotropic = smooth || ggx.alpha[0] == ggx.alpha[1];
     [ior, 1.0 / ior].map(|eta| {
         let table = |share: fn(Ggx, Vec3, f32) -> f32, smooth_share: fn(f32) -> f32| {
-            AlbedoTable::new(isotropic, |wo| {
+            AlbedoTable::of_directions(isotropic, |wo| {
                 if smooth { smooth_share(fresnel_dielectric(wo.z, eta)) } else { share(ggx, wo, eta) }
             })
         };

@@ -1,116 +1,91 @@
-//! Rough diffuse reflection: `oren_nayar_diffuse_bsdf`.
+//! Lobes that are sampled by the cosine: `oren_nayar_diffuse_bsdf`, `burley_diffuse_bsdf`, `translucent_bsdf` and
+//! `sheen_bsdf`.
 
 use std::f32::consts::{FRAC_1_PI, PI};
 use std::sync::LazyLock;
 
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
-use super::albedo_table::{AlbedoTable, mean_over_square};
+use super::albedo::{AlbedoTable, mean_over_square};
+use super::oren_nayar::OrenNayar;
 
-/// Oren and Nayar's model of diffuse facets, in one of MaterialX's two forms.
-#[derive(Clone, Debug, PartialEq)]
-pub(crate) struct OrenNayar {
-    color: Vec3,
-    form: Form,
+/// A lobe that is sampled like Lambert's.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) enum Diffuse {
+    OrenNayar(OrenNayar),
+    /// Burley, "Physically Based Shading at Disney", SIGGRAPH 2012.
+    Burley {
+        color: Vec3,
+        roughness: f32,
+    },
+    /// Lambert's law on the other side.
+    Translucent {
+        color: Vec3,
+    },
+    /// Estevez and Kulla, "Production Friendly Microfacet Sheen BRDF", 2017.
+    Sheen {
+        color: Vec3,
+        roughness: f32,
+    },
 }
 
-#[derive(Clone, Debug, PartialEq)]
-enum Form {
-    /// The qualitative model, Oren and Nayar, "Generalization of Lambert's Reflectance Model", SIGGRAPH 1994, Eq. 27.
-    Qualitative { a: f32, b: f32 },
-    /// EON: Portsmouth, Kutz and Hill, "EON: A Practical Energy-Preserving Rough Diffuse BRDF", JCGT 14(1), 2025.
-    EnergyPreserving { a: f32, roughness: f32 },
-}
+impl Diffuse {
+    pub(crate) fn burley(color: Vec3, roughness: f32) -> Self {
+        Self::Burley { color, roughness: roughness.clamp(0.0, 1.0) }
+    }
 
-impl OrenNayar {
-    /// `roughness` is the slope's standard deviation, or in the energy-preserving form EON's roughness in `[0, 1]`.
-    pub(crate) fn new(color: Vec3, roughness: f32, energy_compensation: bool) -> Self {
-        let form = if energy_compensation {
-            let roughness = roughness.clamp(0.0, 1.0);
-            Form::EnergyPreserving { a: 1.0 / (1.0 + (0.5 - 2.0 / (3.0 * PI)) * roughness), roughness }
-        } else {
-            let sigma2 = roughness * roughness;
-            let a = 1.0 - 0.5 * sigma2 / (sigma2 + 0.33);
-            let b = 0.45 * sigma2 / (sigma2 + 0.09);
-            Form::Qualitative { a, b }
-        };
-        Self { color: color.clamp(Vec3::ZERO, Vec3::ONE), form }
+    pub(crate) fn sheen(color: Vec3, roughness: f32) -> Self {
+        Self::Sheen { color, roughness: roughness.clamp(SMALLEST_SHEEN, 1.0) }
     }
 
     #[inline]
     pub(crate) fn eval(&self, wo: Vec3, wi: Vec3) -> Vec3 {
-        if wo.z <= 0.0 || wi.z <= 0.0 {
+        if wo.z <= 0.0 || self.cosine(wi) <= 0.0 {
             return Vec3::ZERO;
         }
-        match &self.form {
-            Form::Qualitative { a, b } => self.color * (FRAC_1_PI * (a + b * qualitative_slope(wo, wi))),
-            Form::EnergyPreserving { a, roughness } => {
-                let s = wo.dot(wi) - wo.z * wi.z;
-                let s_over_t = if s > 0.0 { s / wo.z.max(wi.z) } else { s };
-                let single = self.color * (FRAC_1_PI * a * (1.0 + roughness * s_over_t));
-                single + multiple(self.color, *a, *roughness, wo.z, wi.z)
-            }
+        match *self {
+            Self::OrenNayar(lobe) => lobe.eval(wo, wi),
+            Self::Burley { color, roughness } => color * burley(wo, wi, roughness),
+            Self::Translucent { color } => color * FRAC_1_PI,
+            Self::Sheen { color, roughness } => color * sheen(wo, wi, roughness),
         }
+    }
+
+    /// The cosine of a direction on the side that the lobe scatters to.
+    fn cosine(&self, wi: Vec3) -> f32 {
+        if matches!(self, Self::Translucent { .. }) { -wi.z } else { wi.z }
     }
 
     #[inline]
     pub(crate) fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        if wo.z > 0.0 { wi.z.max(0.0) * FRAC_1_PI } else { 0.0 }
+        if wo.z > 0.0 { self.cosine(wi).max(0.0) * FRAC_1_PI } else { 0.0 }
     }
 
     #[inline]
     pub(crate) fn sample(&self, u: [f32; 2]) -> Vec3 {
-        cosine_hemisphere(u)
+        let wi = cosine_hemisphere(u);
+        Vec3::new(wi.x, wi.y, self.cosine(wi))
     }
 
     #[inline]
     pub(crate) fn albedo(&self, wo: Vec3) -> Vec3 {
-        match &self.form {
-            Form::Qualitative { a, b } => self.color * (a + b * SLOPE_ALBEDO.look_up(wo)),
-            Form::EnergyPreserving { a, roughness } => {
-                let single = facet_albedo(*a, *roughness, wo.z);
-                self.color * single + multiple_tint(self.color, *a, *roughness) * (1.0 - single)
-            }
+        match *self {
+            Self::OrenNayar(lobe) => lobe.albedo(wo),
+            Self::Burley { color, roughness } => color * ALBEDO.look_up(roughness, wo.z).x,
+            Self::Translucent { color } => color,
+            Self::Sheen { color, roughness } => color * sheen_albedo(roughness, wo),
         }
     }
-}
 
-/// The mean of [`qualitative_slope`], cosine-weighted: the same for all roughnesses.
-static SLOPE_ALBEDO: LazyLock<AlbedoTable> = LazyLock::new(|| {
-    AlbedoTable::new(true, |wo| mean_over_square(|u| qualitative_slope(wo, cosine_hemisphere(u))))
-});
-
-/// The part of the qualitative model that depends on the azimuth between the directions.
-fn qualitative_slope(wo: Vec3, wi: Vec3) -> f32 {
-    let s = wo.dot(wi) - wo.z * wi.z;
-    if s > 0.0 { s / wo.z.max(wi.z) } else { 0.0 }
-}
-
-/// EON, Eq. 17: light that left a facet towards another.
-fn multiple(color: Vec3, a: f32, roughness: f32, cos_o: f32, cos_i: f32) -> Vec3 {
-    let lost = (1.0 - facet_albedo(a, roughness, cos_o)) * (1.0 - facet_albedo(a, roughness, cos_i));
-    let lost_mean = (1.0 - mean_facet_albedo(a, roughness)).max(1e-7);
-    multiple_tint(color, a, roughness) * (FRAC_1_PI * lost.max(0.0) / lost_mean)
-}
-
-/// The share of the light that leaves a facet towards another and comes back out.
-fn multiple_tint(color: Vec3, a: f32, roughness: f32) -> Vec3 {
-    let mean = mean_facet_albedo(a, roughness);
-    color * color * mean / (Vec3::ONE - color * (1.0 - mean).max(1e-7))
-}
-
-/// The hemispherical mean of [`facet_albedo`].
-fn mean_facet_albedo(a: f32, roughness: f32) -> f32 {
-    a * (1.0 + (2.0 / 3.0 - 28.0 / (15.0 * PI)) * roughness)
-}
-
-/// The directional albedo of single scattering by white facets (Fujii's improved Oren-Nayar model).
-fn facet_albedo(a: f32, roughness: f32, cos_theta: f32) -> f32 {
-    let cos = cos_theta.max(1e-4);
-    let sin = (1.0 - cos * cos).max(0.0).sqrt();
-    let theta = cos.min(1.0).acos();
-    let g = sin * (theta - sin * cos) + (2.0 / 3.0) * ((sin / cos) * (1.0 - sin * sin * sin) - sin);
-    a * (1.0 + roughness * FRAC_1_PI * g)
+    /// The share of energy that goes on to what `layer` puts below: fibres let through what they don't scatter,
+    /// diffuse surfaces nothing.
+    #[inline]
+    pub(crate) fn throughput(&self, wo: Vec3) -> Vec3 {
+        match *self {
+            Self::Sheen { roughness, .. } => Vec3::splat(1.0 - sheen_albedo(roughness, wo)),
+            Self::OrenNayar(_) | Self::Burley { .. } | Self::Translucent { .. } => Vec3::ZERO,
+        }
+    }
 }
 
 /// A direction distributed as the cosine of its polar angle (Malley's method).
@@ -121,36 +96,54 @@ pub(crate) fn cosine_hemisphere(u: [f32; 2]) -> Vec3 {
     Vec3::new(radius * cos_phi, radius * sin_phi, (1.0 - u[1]).max(1e-12).sqrt())
 }
 
+/// Below it the fibres' distribution is too steep for single precision.
+const SMALLEST_SHEEN: f32 = 0.05;
+
+/// Directional albedos over roughness and cosine: Burley's and the sheen's, both white.
+static ALBEDO: LazyLock<AlbedoTable<Vec2>> = LazyLock::new(|| {
+    AlbedoTable::new(32, |roughness, wo| {
+        let mean = |f: fn(Vec3, Vec3, f32) -> f32, roughness| {
+            mean_over_square(|u| PI * f(wo, cosine_hemisphere(u), roughness))
+        };
+        Vec2::new(mean(burley, roughness), mean(sheen, roughness.max(SMALLEST_SHEEN)))
+    })
+});
+
+fn sheen_albedo(roughness: f32, wo: Vec3) -> f32 {
+    ALBEDO.look_up(roughness, wo.z).y.min(1.0)
+}
+
+fn burley(wo: Vec3, wi: Vec3, roughness: f32) -> f32 {
+    let cos_d = (wo + wi).normalize_or(Vec3::Z).dot(wi);
+    let grazing = 0.5 + 2.0 * roughness * cos_d * cos_d;
+    let factor = |cos: f32| 1.0 + (grazing - 1.0) * (1.0 - cos).max(0.0).powi(5);
+    FRAC_1_PI * factor(wo.z) * factor(wi.z)
+}
+
+fn sheen(wo: Vec3, wi: Vec3, roughness: f32) -> f32 {
+    let cos_h = (wo + wi).normalize_or(Vec3::Z).z;
+    let sin_h = (1.0 - cos_h * cos_h).max(0.0).sqrt();
+    let distribution = (2.0 + 1.0 / roughness) * sin_h.powf(1.0 / roughness) / (2.0 * PI);
+    distribution / (4.0 * (wo.z + wi.z - wo.z * wi.z)).max(1e-6)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn albedos_are_the_means_of_what_is_evaluated() {
-        for (roughness, compensated) in [(0.0, true), (0.4, true), (1.0, true), (0.4, false), (2.0, false)] {
-            let lobe = OrenNayar::new(Vec3::new(1.0, 0.5, 0.1), roughness, compensated);
-            for cos_theta in [0.05_f32, 0.3, 0.7, 1.0] {
-                let wo = Vec3::new((1.0 - cos_theta * cos_theta).sqrt(), 0.0, cos_theta);
-                for channel in 0..3 {
-                    let mean = mean_over_square(|u| PI * lobe.eval(wo, cosine_hemisphere(u))[channel]);
-                    let albedo = lobe.albedo(wo)[channel];
-                    let case =
-                        format!("roughness {roughness}, {compensated}, cos {cos_theta}: {albedo} {mean}");
-                    // 512 points of the quadrature.
-                    assert!((albedo - mean).abs() < 5e-3, "{case}");
-                }
-            }
-        }
-    }
-
-    #[test]
-    fn qualitative_diffuse_gains_no_more_than_known() {
-        // At grazing the albedo is A + B / 2, which exceeds 1 by up to 0.015 (at a roughness of 0.2).
-        for roughness in [0.0, 0.2, 1.0, 10.0] {
-            let lobe = OrenNayar::new(Vec3::ONE, roughness, false);
-            for cos_theta in [0.01_f32, 0.3, 1.0] {
-                let wo = Vec3::new((1.0 - cos_theta * cos_theta).sqrt(), 0.0, cos_theta);
-                assert!(lobe.albedo(wo).x < 1.02);
+        let color = Vec3::ONE;
+        for lobe in [Diffuse::burley(color, 0.4), Diffuse::Translucent { color }, Diffuse::sheen(color, 0.3)]
+        {
+            for cos in [0.2_f32, 0.6, 1.0] {
+                let wo = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
+                let mean = mean_over_square(|u| {
+                    let wi = lobe.sample(u);
+                    lobe.eval(wo, wi).x * wi.z.abs() / lobe.pdf(wo, wi)
+                });
+                let albedo = lobe.albedo(wo).x;
+                assert!((albedo - mean).abs() < 0.01, "{lobe:?} {cos}: {albedo} {mean}");
             }
         }
     }

@@ -4,6 +4,9 @@ use std::f32::consts::PI;
 
 use glam::Vec3;
 
+/// Alpha below which facets make a smooth surface: single precision can't resolve the lobe.
+pub(crate) const SMOOTH_ALPHA: f32 = 5e-4;
+
 /// Trowbridge and Reitz' distribution (GGX of Walter et al. 2007), anisotropic, with Smith's shadowing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Ggx {

@@ -3,10 +3,10 @@
 use catseye::{AnyLobe, Lobe as _};
 use glam::Vec3;
 
-use super::cloth::Cloth;
 use super::dielectric::Dielectric;
-use super::diffuse::OrenNayar;
-use super::metal::Metal;
+use super::diffuse::Diffuse;
+use super::microfacet::Microfacet;
+use super::shading::BsdfSample;
 use crate::Frame;
 
 /// A lobe and its share.
@@ -25,10 +25,9 @@ pub(crate) struct Lobe {
 #[derive(Clone, Debug)]
 pub(crate) enum LobeKind {
     Retro(Box<AnyLobe<f32>>),
-    Diffuse(OrenNayar),
-    Cloth(Cloth),
+    Diffuse(Diffuse),
     Dielectric(Dielectric),
-    Metal(Metal),
+    Microfacet(Microfacet),
 }
 
 /// The directions a lobe is asked about. `wo.z` is positive; `inside` says whether the outside of the surface is on
@@ -37,16 +36,6 @@ pub(crate) enum LobeKind {
 pub(crate) struct Outgoing {
     pub(crate) wo: Vec3,
     pub(crate) inside: bool,
-}
-
-/// A direction from a lobe's sampler.
-#[derive(Clone, Copy, Debug)]
-pub(crate) struct LobeSample {
-    pub(crate) wi: Vec3,
-    /// f |cos| / pdf.
-    pub(crate) weight: Vec3,
-    /// `None` for a Dirac lobe.
-    pub(crate) pdf: Option<f32>,
 }
 
 impl Lobe {
@@ -70,14 +59,14 @@ impl Lobe {
     pub(crate) fn is_dirac(&self) -> bool {
         match &self.kind {
             LobeKind::Retro(lobe) => lobe.is_dirac(),
-            LobeKind::Diffuse(_) | LobeKind::Cloth(_) => false,
+            LobeKind::Diffuse(_) => false,
             LobeKind::Dielectric(lobe) => lobe.is_dirac(),
-            LobeKind::Metal(lobe) => lobe.is_dirac(),
+            LobeKind::Microfacet(lobe) => lobe.is_dirac(),
         }
     }
 
     /// Whether the lobe is about the direction that the light comes from.
-    pub(crate) fn sends_back(&self) -> bool {
+    pub(crate) fn is_retroreflective(&self) -> bool {
         self.retroreflective || matches!(self.kind, LobeKind::Retro(_))
     }
 
@@ -98,46 +87,43 @@ impl Lobe {
                 (Vec3::from(f), pdf)
             }
             LobeKind::Diffuse(lobe) => (lobe.eval(out.wo, wi), lobe.pdf(out.wo, wi)),
-            LobeKind::Cloth(lobe) => (lobe.eval(out.wo, wi), lobe.pdf(wi)),
             LobeKind::Dielectric(lobe) => lobe.eval_pdf(self.mirrored(out).wo, wi, out.inside),
-            LobeKind::Metal(lobe) => lobe.eval_pdf(self.mirrored(out).wo, wi),
+            LobeKind::Microfacet(lobe) => lobe.eval_pdf(self.mirrored(out).wo, wi),
         }
     }
 
-    /// A direction for three uniform numbers, without the lobe's share.
+    /// A direction in the lobe's frame for three uniform numbers, without the lobe's share.
     #[inline]
-    pub(crate) fn sample(&self, out: Outgoing, u: [f32; 3]) -> Option<LobeSample> {
+    pub(crate) fn sample(&self, out: Outgoing, u: [f32; 3]) -> Option<BsdfSample> {
         let mirrored = self.mirrored(out).wo;
         match &self.kind {
             LobeKind::Retro(lobe) => {
                 let sample = lobe.sample(to_catseye(out.wo), u)?;
                 let wi = Vec3::from(<[f32; 3]>::from(sample.wi));
-                let pdf = (!lobe.is_dirac()).then_some(sample.pdf);
-                Some(LobeSample { wi, weight: Vec3::from(sample.weight), pdf })
+                let (weight, is_dirac) = (Vec3::from(sample.weight), lobe.is_dirac());
+                Some(BsdfSample { wi, weight, pdf: sample.pdf, is_dirac })
             }
             LobeKind::Diffuse(lobe) => self.evaluated(out, lobe.sample([u[0], u[1]])),
-            LobeKind::Cloth(lobe) => self.evaluated(out, lobe.sample([u[0], u[1]])),
             LobeKind::Dielectric(lobe) => {
                 let wi = lobe.sample(mirrored, u, out.inside)?;
                 if lobe.is_dirac() {
-                    let weight = lobe.dirac_weight(mirrored, wi, out.inside);
-                    return Some(LobeSample { wi, weight, pdf: None });
+                    return Some(BsdfSample::dirac(wi, lobe.dirac_weight(mirrored, wi, out.inside)));
                 }
                 self.evaluated(out, wi)
             }
-            LobeKind::Metal(lobe) => {
+            LobeKind::Microfacet(lobe) => {
                 let wi = lobe.sample(mirrored, [u[0], u[1]])?;
                 if lobe.is_dirac() {
-                    return Some(LobeSample { wi, weight: lobe.dirac_weight(mirrored), pdf: None });
+                    return Some(BsdfSample::dirac(wi, lobe.dirac_weight(mirrored)));
                 }
                 self.evaluated(out, wi)
             }
         }
     }
 
-    fn evaluated(&self, out: Outgoing, wi: Vec3) -> Option<LobeSample> {
+    fn evaluated(&self, out: Outgoing, wi: Vec3) -> Option<BsdfSample> {
         let (f, pdf) = self.eval_pdf(out, wi);
-        (pdf > 0.0).then(|| LobeSample { wi, weight: f * (wi.z.abs() / pdf), pdf: Some(pdf) })
+        (pdf > 0.0).then(|| BsdfSample { wi, weight: f * (wi.z.abs() / pdf), pdf, is_dirac: false })
     }
 
     /// The share of the energy from `wo` that is scattered, without the lobe's share.
@@ -146,9 +132,8 @@ impl Lobe {
         match &self.kind {
             LobeKind::Retro(lobe) => Vec3::from(lobe.albedo(to_catseye(out.wo))),
             LobeKind::Diffuse(lobe) => lobe.albedo(out.wo),
-            LobeKind::Cloth(lobe) => lobe.albedo(out.wo),
             LobeKind::Dielectric(lobe) => lobe.albedo(out.wo, out.inside),
-            LobeKind::Metal(lobe) => lobe.albedo(out.wo),
+            LobeKind::Microfacet(lobe) => lobe.albedo(out.wo),
         }
     }
 
@@ -161,10 +146,9 @@ impl Lobe {
     pub(crate) fn throughput(&self, out: Outgoing) -> Vec3 {
         let lobe = match &self.kind {
             LobeKind::Retro(_) => Vec3::ONE - self.albedo(out),
-            LobeKind::Diffuse(_) => Vec3::ZERO,
-            LobeKind::Cloth(lobe) => lobe.throughput(out.wo),
+            LobeKind::Diffuse(lobe) => lobe.throughput(out.wo),
             LobeKind::Dielectric(lobe) => Vec3::splat(lobe.throughput(out.wo, out.inside)),
-            LobeKind::Metal(lobe) => lobe.throughput(out.wo),
+            LobeKind::Microfacet(lobe) => lobe.throughput(out.wo),
         };
         (Vec3::ONE + self.weight * (lobe - Vec3::ONE)).clamp(Vec3::ZERO, Vec3::ONE)
     }

@@ -1,16 +1,16 @@
 //! What surfaces do to light: a MaterialX closure tree made ready for sampling.
 
-mod albedo_table;
-mod cloth;
+mod albedo;
 mod dielectric;
 mod diffuse;
 mod fresnel;
 mod ggx;
 mod lobe;
-mod metal;
+mod microfacet;
+mod oren_nayar;
 mod shading;
-mod table;
 mod tree;
 
+pub(crate) use dielectric::Albedo;
 pub use shading::{BsdfSample, Shading};
 pub use tree::Bsdf;

@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-use super::lobe::{LobeSample, Outgoing};
+use super::lobe::Outgoing;
 use super::tree::{Bsdf, MAX_LOBES};
 use crate::Frame;
 
@@ -27,8 +27,16 @@ pub struct BsdfSample {
     pub wi: Vec3,
     /// f |cos| / pdf.
     pub weight: Vec3,
-    /// Density per steradian; `None` for a Dirac lobe, which light sampling can't meet.
-    pub pdf: Option<f32>,
+    /// Density per steradian; 1 for a Dirac lobe, of which only the weight has a meaning.
+    pub pdf: f32,
+    /// Whether a Dirac lobe chose the direction: light sampling can't meet it.
+    pub is_dirac: bool,
+}
+
+impl BsdfSample {
+    pub(crate) fn dirac(wi: Vec3, weight: Vec3) -> Self {
+        Self { wi, weight, pdf: 1.0, is_dirac: true }
+    }
 }
 
 impl Bsdf {
@@ -100,16 +108,14 @@ impl Shading<'_> {
     #[must_use]
     pub fn sample(&self, u: [f32; 4]) -> Option<BsdfSample> {
         let lobe = self.select(u[0])?;
-        let LobeSample { wi, weight, pdf } =
-            self.bsdf.lobes[lobe].sample(self.out[lobe], [u[1], u[2], u[3]])?;
-        let wi_world = self.world(lobe, wi).try_normalize()?;
-        let probability = self.selection[lobe];
-        if pdf.is_none() || self.bsdf.lobes.len() == 1 {
-            let weight = weight * self.shares[lobe] / probability;
-            return Some(BsdfSample { wi: wi_world, weight, pdf });
+        let sample = self.bsdf.lobes[lobe].sample(self.out[lobe], [u[1], u[2], u[3]])?;
+        let wi = self.world(lobe, sample.wi).try_normalize()?;
+        if sample.is_dirac || self.bsdf.lobes.len() == 1 {
+            let weight = sample.weight * self.shares[lobe] / self.selection[lobe];
+            return Some(BsdfSample { wi, weight, ..sample });
         }
-        let (f_cos, pdf) = self.eval_pdf(wi_world);
-        (pdf > 0.0).then(|| BsdfSample { wi: wi_world, weight: f_cos / pdf, pdf: Some(pdf) })
+        let (f_cos, pdf) = self.eval_pdf(wi);
+        (pdf > 0.0).then(|| BsdfSample { wi, weight: f_cos / pdf, pdf, is_dirac: false })
     }
 
     fn select(&self, u: f32) -> Option<usize> {

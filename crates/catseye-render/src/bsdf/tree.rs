@@ -4,11 +4,12 @@ use catseye::{AnyLobe, Model};
 use catseye_materialx::{Closure, ScatterMode};
 use glam::Vec3;
 
-use super::cloth::Cloth;
-use super::dielectric::Dielectric;
-use super::diffuse::OrenNayar;
+use super::dielectric::{Albedo, Dielectric};
+use super::diffuse::Diffuse;
+use super::fresnel::Fresnel;
 use super::lobe::{Lobe, LobeKind, Outgoing};
-use super::metal::{Fresnel, Metal};
+use super::microfacet::Microfacet;
+use super::oren_nayar::OrenNayar;
 use crate::Error;
 
 /// Lobes that one material may have: room is kept on the stack of every shading point.
@@ -45,16 +46,12 @@ impl Bsdf {
     /// # Errors
     /// As [`Bsdf::new`].
     pub fn with_model(closure: &Closure, model: Model) -> Result<Self, Error> {
-        Self::prepared(closure, model, Care::Exact)
+        Self::with_albedo(closure, model, Albedo::Exact)
     }
 
-    /// Prepares what a closure is at one point of a surface that varies: quick, its shares of energy a little off.
-    pub(crate) fn at_point(closure: &Closure, model: Model) -> Result<Self, Error> {
-        Self::prepared(closure, model, Care::Quick)
-    }
-
-    fn prepared(closure: &Closure, model: Model, care: Care) -> Result<Self, Error> {
-        let mut builder = Builder { model, care, lobes: Vec::new() };
+    /// As [`Bsdf::with_model`], the lobes' shares of energy exact or cached.
+    pub(crate) fn with_albedo(closure: &Closure, model: Model, albedo: Albedo) -> Result<Self, Error> {
+        let mut builder = Builder { model, albedo, lobes: Vec::new() };
         let root = builder.prepare(closure)?;
         let lobes = builder.lobes;
         if lobes.len() > MAX_LOBES {
@@ -72,13 +69,13 @@ impl Bsdf {
     /// A matte surface: Lambert's law.
     #[must_use]
     pub fn matte(color: Vec3) -> Self {
-        let kind = LobeKind::Diffuse(OrenNayar::new(color, 0.0, false));
+        let kind = LobeKind::Diffuse(Diffuse::OrenNayar(OrenNayar::new(color, 0.0, false)));
         Self { lobes: vec![Lobe::new(1.0, kind)], root: Node::Lobe(0) }
     }
 
     /// Whether a lobe is a Dirac distribution in the direction that the light comes from.
     pub(crate) fn has_retro_mirror(&self) -> bool {
-        self.lobes.iter().any(|lobe| lobe.is_dirac() && lobe.sends_back())
+        self.lobes.iter().any(|lobe| lobe.is_dirac() && lobe.is_retroreflective())
     }
 
     /// Factors of the lobes' BSDFs, for a direction given in each lobe's own frame.
@@ -122,96 +119,71 @@ impl Bsdf {
     }
 }
 
-/// How much time there is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Care {
-    /// Once for a material.
-    Exact,
-    /// Once for a point.
-    Quick,
-}
-
 /// Makes a [`Bsdf`].
 struct Builder {
     model: Model,
-    care: Care,
+    albedo: Albedo,
     lobes: Vec<Lobe>,
 }
 
 impl Builder {
+    /// Every closure is named: a new one does not compile before it is dealt with here.
     fn prepare(&mut self, closure: &Closure) -> Result<Node, Error> {
-        match closure {
-            Closure::None => Ok(Node::None),
-            Closure::Mix { foreground, background, amount } => {
-                // What doesn't count takes no room.
-                match amount.clamp(0.0, 1.0) {
-                    0.0 => self.prepare(background),
-                    1.0 => self.prepare(foreground),
-                    amount => Ok(Node::Mix {
-                        foreground: self.boxed(foreground)?,
-                        background: self.boxed(background)?,
-                        amount,
-                    }),
-                }
-            }
-            Closure::Layer { top, base } => {
-                Ok(Node::Layer { top: self.boxed(top)?, base: self.boxed(base)? })
-            }
-            Closure::Add { a, b } => Ok(Node::Add { a: self.boxed(a)?, b: self.boxed(b)? }),
-            Closure::Multiply { closure, factor } => {
-                Ok(Node::Multiply { closure: self.boxed(closure)?, factor: Vec3::from(*factor) })
-            }
-            leaf => {
-                let Some(lobe) = self.lobe(leaf)? else { return Ok(Node::None) };
-                self.lobes.push(lobe);
-                Ok(Node::Lobe(self.lobes.len() - 1))
-            }
-        }
-    }
-
-    fn boxed(&mut self, closure: &Closure) -> Result<Box<Node>, Error> {
-        self.prepare(closure).map(Box::new)
-    }
-
-    /// `None` for a lobe of weight 0.
-    fn lobe(&self, closure: &Closure) -> Result<Option<Lobe>, Error> {
         let color = |color: &[f32; 3]| Vec3::from(*color).clamp(Vec3::ZERO, Vec3::ONE);
-        let (weight, kind) = match closure {
-            Closure::Oriented { closure, normal, tangent } => {
-                let Some(mut lobe) = self.lobe(closure)? else { return Ok(None) };
-                lobe.normal_world = normal.map(Vec3::from).and_then(Vec3::try_normalize);
-                lobe.tangent_world = lobe.tangent_world.or(tangent.map(Vec3::from));
-                return Ok(Some(lobe));
+        Ok(match closure {
+            Closure::None => Node::None,
+            Closure::Mix { foreground, background, amount } => match amount.clamp(0.0, 1.0) {
+                // What doesn't count takes no room.
+                0.0 => self.prepare(background)?,
+                1.0 => self.prepare(foreground)?,
+                amount => Node::Mix {
+                    foreground: self.boxed(foreground)?,
+                    background: self.boxed(background)?,
+                    amount,
+                },
+            },
+            Closure::Layer { top, base } => Node::Layer { top: self.boxed(top)?, base: self.boxed(base)? },
+            Closure::Add { a, b } => Node::Add { a: self.boxed(a)?, b: self.boxed(b)? },
+            Closure::Multiply { closure, factor } => {
+                Node::Multiply { closure: self.boxed(closure)?, factor: Vec3::from(*factor) }
             }
-            Closure::RetroReflective { weight, params, tangent_u } => {
-                if *weight <= 0.0 {
-                    return Ok(None);
+            Closure::Oriented { closure, normal, tangent } => {
+                let first = self.lobes.len();
+                let node = self.prepare(closure)?;
+                for lobe in &mut self.lobes[first..] {
+                    let normal = normal.map(Vec3::from).and_then(Vec3::try_normalize);
+                    lobe.normal_world = lobe.normal_world.or(normal);
+                    lobe.tangent_world = lobe.tangent_world.or(tangent.map(Vec3::from));
                 }
-                let mut lobe =
-                    Lobe::new(*weight, LobeKind::Retro(Box::new(AnyLobe::new(self.model, params)?)));
-                lobe.tangent_world = tangent_u.map(Vec3::from);
-                return Ok(Some(lobe));
+                node
+            }
+            Closure::RetroReflective { weight, .. } if *weight <= 0.0 => Node::None,
+            Closure::RetroReflective { weight, params, tangent_u } => {
+                let kind = LobeKind::Retro(Box::new(AnyLobe::new(self.model, params)?));
+                let tangent_world = tangent_u.map(Vec3::from);
+                self.leaf(Lobe { tangent_world, ..Lobe::new(*weight, kind) })
             }
             Closure::OrenNayarDiffuse { weight, color, roughness, energy_compensation } => {
                 let lobe = OrenNayar::new(Vec3::from(*color), *roughness, *energy_compensation);
-                (weight, LobeKind::Diffuse(lobe))
+                self.diffuse(*weight, Diffuse::OrenNayar(lobe))
             }
             Closure::BurleyDiffuse { weight, color: c, roughness } => {
-                (weight, LobeKind::Cloth(Cloth::burley(color(c), *roughness)))
+                self.diffuse(*weight, Diffuse::burley(color(c), *roughness))
             }
             Closure::Translucent { weight, color: c } => {
-                (weight, LobeKind::Cloth(Cloth::translucent(color(c))))
+                self.diffuse(*weight, Diffuse::Translucent { color: color(c) })
             }
             Closure::Sheen { weight, color: c, roughness } => {
-                (weight, LobeKind::Cloth(Cloth::sheen(color(c), *roughness)))
+                self.diffuse(*weight, Diffuse::sheen(color(c), *roughness))
             }
-            Closure::Dielectric { weight, tint, ior, roughness, scatter_mode, .. } => (
-                weight,
-                LobeKind::Dielectric(self.dielectric(Vec3::from(*tint), *ior, *roughness, *scatter_mode)),
-            ),
-            Closure::Conductor { weight, ior, extinction, roughness, .. } => {
+            Closure::Dielectric { weight, tint, ior, roughness, retroreflective, scatter_mode } => {
+                let kind = self.dielectric(Vec3::from(*tint), *ior, *roughness, *scatter_mode);
+                self.leaf(Lobe { retroreflective: *retroreflective, ..Lobe::new(*weight, kind) })
+            }
+            Closure::Conductor { weight, ior, extinction, roughness, retroreflective } => {
                 let fresnel = Fresnel::Conductor { n: Vec3::from(*ior), k: Vec3::from(*extinction) };
-                (weight, LobeKind::Metal(Metal::new(fresnel, *roughness)))
+                let kind = LobeKind::Microfacet(Microfacet::new(fresnel, *roughness));
+                self.leaf(Lobe { retroreflective: *retroreflective, ..Lobe::new(*weight, kind) })
             }
             Closure::GeneralizedSchlick {
                 weight,
@@ -220,41 +192,41 @@ impl Builder {
                 color90,
                 exponent,
                 roughness,
+                retroreflective,
                 scatter_mode,
-                ..
             } => {
                 let kind = if *scatter_mode == ScatterMode::Reflect {
                     let [at_0, at_82, at_90] = [color0, color82, color90].map(color);
                     let fresnel = Fresnel::Schlick { at_0, at_82, at_90, exponent: exponent.max(0.0) };
-                    LobeKind::Metal(Metal::new(fresnel, *roughness))
+                    LobeKind::Microfacet(Microfacet::new(fresnel, *roughness))
                 } else {
                     // Refraction needs an index: that of a dielectric which reflects as much head on.
                     let root = (color(color0).element_sum() / 3.0).min(0.99).sqrt();
-                    let ior = (1.0 + root) / (1.0 - root);
-                    LobeKind::Dielectric(self.dielectric(Vec3::ONE, ior, *roughness, *scatter_mode))
+                    self.dielectric(Vec3::ONE, (1.0 + root) / (1.0 - root), *roughness, *scatter_mode)
                 };
-                (weight, kind)
+                self.leaf(Lobe { retroreflective: *retroreflective, ..Lobe::new(*weight, kind) })
             }
-            // Combinations of lobes have no lobe: MaterialX gives them no normal either.
-            _ => return Ok(None),
-        };
-        if *weight <= 0.0 {
-            return Ok(None);
-        }
-        let mut lobe = Lobe::new(*weight, kind);
-        lobe.retroreflective = matches!(
-            closure,
-            Closure::Dielectric { retroreflective: true, .. }
-                | Closure::Conductor { retroreflective: true, .. }
-                | Closure::GeneralizedSchlick { retroreflective: true, .. }
-        );
-        Ok(Some(lobe))
+        })
     }
 
-    fn dielectric(&self, tint: Vec3, ior: f32, roughness: [f32; 2], mode: ScatterMode) -> Dielectric {
-        match self.care {
-            Care::Exact => Dielectric::new(tint, ior, roughness, mode),
-            Care::Quick => Dielectric::varying(tint, ior, roughness, mode),
+    fn boxed(&mut self, closure: &Closure) -> Result<Box<Node>, Error> {
+        self.prepare(closure).map(Box::new)
+    }
+
+    /// A lobe of weight 0 takes no room.
+    fn leaf(&mut self, lobe: Lobe) -> Node {
+        if lobe.weight <= 0.0 {
+            return Node::None;
         }
+        self.lobes.push(lobe);
+        Node::Lobe(self.lobes.len() - 1)
+    }
+
+    fn diffuse(&mut self, weight: f32, lobe: Diffuse) -> Node {
+        self.leaf(Lobe::new(weight, LobeKind::Diffuse(lobe)))
+    }
+
+    fn dielectric(&self, tint: Vec3, ior: f32, roughness: [f32; 2], mode: ScatterMode) -> LobeKind {
+        LobeKind::Dielectric(Dielectric::new(tint, ior, roughness, mode, self.albedo))
     }
 }

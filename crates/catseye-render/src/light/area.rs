@@ -85,7 +85,7 @@ impl Light for AreaLight {
             return None;
         }
         let pdf = self.density(wi, distance);
-        Some(LightSample { wi, distance, radiance_over_pdf: self.radiance / pdf, pdf: Some(pdf) })
+        Some(LightSample { wi, distance, radiance_over_pdf: self.radiance / pdf, pdf, is_dirac: false })
     }
 
     fn distance(&self, ray: &Ray) -> Option<f32> {

@@ -39,7 +39,8 @@ impl Light for DistantLight {
             wi: Frame::from_normal(self.direction).to_world(local),
             distance: f32::INFINITY,
             radiance_over_pdf: self.radiance * solid_angle,
-            pdf: Some(1.0 / solid_angle),
+            pdf: 1.0 / solid_angle,
+            is_dirac: false,
         })
     }
 

@@ -88,7 +88,8 @@ impl Light for Environment {
         let Self::Image(image) = self else { return None };
         let (wi, pdf) = image.sample(u)?;
         let (radiance, _) = self.radiance_pdf(position, wi);
-        Some(LightSample { wi, distance: f32::INFINITY, radiance_over_pdf: radiance / pdf, pdf: Some(pdf) })
+        let radiance_over_pdf = radiance / pdf;
+        Some(LightSample { wi, distance: f32::INFINITY, radiance_over_pdf, pdf, is_dirac: false })
     }
 
     fn distance(&self, ray: &Ray) -> Option<f32> {

@@ -29,8 +29,10 @@ pub struct LightSample {
     pub distance: f32,
     /// Radiance over `pdf`; for a light without extent its irradiance on a plane that faces it.
     pub radiance_over_pdf: Vec3,
-    /// Density per steradian; `None` for a light without extent, which no ray can meet.
-    pub pdf: Option<f32>,
+    /// Density per steradian; 1 for a light without extent.
+    pub pdf: f32,
+    /// Whether the light has no extent, so that no ray can meet it.
+    pub is_dirac: bool,
 }
 
 /// A light source. Positions and directions are in world space.

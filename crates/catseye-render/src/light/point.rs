@@ -21,7 +21,8 @@ impl Light for PointLight {
             wi,
             distance,
             radiance_over_pdf: self.intensity / (distance * distance),
-            pdf: None,
+            pdf: 1.0,
+            is_dirac: true,
         })
     }
 

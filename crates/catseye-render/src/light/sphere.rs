@@ -86,7 +86,7 @@ impl Light for SphereLight {
             (position.distance_squared(self.sphere.centre) - self.sphere.radius.powi(2)).sqrt()
         });
         let radiance_over_pdf = self.radiance_at(position) * solid_angle;
-        Some(LightSample { wi, distance, radiance_over_pdf, pdf: Some(1.0 / solid_angle) })
+        Some(LightSample { wi, distance, radiance_over_pdf, pdf: 1.0 / solid_angle, is_dirac: false })
     }
 
     fn distance(&self, ray: &Ray) -> Option<f32> {

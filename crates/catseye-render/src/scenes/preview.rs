@@ -54,7 +54,7 @@ fn headlamp(bsdfs: &[Bsdf]) -> SphereLight {
     let perfect = |shading: Shading<'_>| {
         (0..64).any(|i| {
             let u = std::array::from_fn(|k| sobol_burley::sample(i, k as u32, 0));
-            shading.sample(u).is_some_and(|s| s.pdf.is_none() && s.wi.dot(wo) > 0.999)
+            shading.sample(u).is_some_and(|s| s.is_dirac && s.wi.dot(wo) > 0.999)
         })
     };
     if shadings().any(perfect) {

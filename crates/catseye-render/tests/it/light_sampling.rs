@@ -1,13 +1,12 @@
 //! Lights bring the irradiance that geometry says.
 
-mod common;
-
 use std::f32::consts::PI;
 
 use catseye_render::light::{AreaLight, Beam, DistantLight, Environment, LatLong, PointLight, SphereLight};
 use catseye_render::{Bsdf, Camera, Image, Light, Mesh, Scene, SceneBuilder, Sphere};
-use common::{SMALL, picture};
 use glam::Vec3;
+
+use crate::common::{SMALL, picture};
 
 /// A white Lambert plane around the origin, a spot of it seen from above.
 fn plane_lit_by(light: impl Light + 'static) -> Scene {
@@ -116,7 +115,7 @@ fn a_half_opaque_screen_halves_the_light_and_the_view() {
     let camera = Camera::orthographic(Vec3::new(0.0, 3.0, 0.0), Vec3::ZERO, Vec3::Z, 1e-3);
     let mut builder = SceneBuilder::new(camera);
     let white = builder.material(Bsdf::matte(Vec3::ONE));
-    let black = builder.translucent_material(Bsdf::matte(Vec3::ZERO), 0.5);
+    let black = builder.material_with_opacity(Bsdf::matte(Vec3::ZERO), 0.5);
     builder.mesh(Mesh::quad(Vec3::new(-5.0, 0.0, 5.0), Vec3::X * 10.0, Vec3::NEG_Z * 10.0), white);
     builder.mesh(Mesh::quad(Vec3::new(-5.0, 1.0, 5.0), Vec3::X * 10.0, Vec3::NEG_Z * 10.0), black);
     builder.light(PointLight { position: Vec3::Y * 2.0, intensity: Vec3::splat(4.0 * PI) });

@@ -4,59 +4,13 @@ use std::sync::LazyLock;
 
 use glam::{Vec2, Vec3};
 
-use super::albedo_table::mean_over_square;
-use super::ggx::Ggx;
-use super::table::FamilyTable;
-
-/// Alpha below which the facets make a mirror: single precision can't resolve the lobe.
-const SMOOTH_ALPHA: f32 = 5e-4;
-
-/// How much a facet reflects.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Fresnel {
-    /// A metal's complex refractive index.
-    Conductor { n: Vec3, k: Vec3 },
-    /// Schlick's curve with any exponent, multiplied by `at_82` at 82 degrees (Hoffman, "Fresnel Equations Considered
-    /// Harmful", 2019; Kutz et al., "Novel aspects of the Adobe Standard Material", 2021).
-    Schlick { at_0: Vec3, at_82: Vec3, at_90: Vec3, exponent: f32 },
-}
-
-impl Fresnel {
-    pub(crate) fn at(&self, cos: f32) -> Vec3 {
-        match *self {
-            Self::Conductor { n, k } => Vec3::from_array(std::array::from_fn(|i| conductor(cos, n[i], k[i]))),
-            Self::Schlick { at_0, at_82, at_90, exponent } => schlick(cos, at_0, at_82, at_90, exponent),
-        }
-    }
-}
-
-/// The share of unpolarised light that a metal of index `n + ik` reflects (Born and Wolf, section 14.2).
-fn conductor(cos: f32, n: f32, k: f32) -> f32 {
-    let (cos2, sin2) = (cos * cos, 1.0 - cos * cos);
-    let t0 = n * n - k * k - sin2;
-    let a2_plus_b2 = (t0 * t0 + 4.0 * n * n * k * k).max(0.0).sqrt();
-    let a = (0.5 * (a2_plus_b2 + t0)).max(0.0).sqrt();
-    let t1 = a2_plus_b2 + cos2;
-    let t2 = 2.0 * cos * a;
-    let perpendicular = (t1 - t2) / (t1 + t2).max(1e-12);
-    let t3 = cos2 * a2_plus_b2 + sin2 * sin2;
-    let t4 = t2 * sin2;
-    let parallel = perpendicular * (t3 - t4) / (t3 + t4).max(1e-12);
-    (0.5 * (perpendicular + parallel)).clamp(0.0, 1.0)
-}
-
-fn schlick(cos: f32, at_0: Vec3, at_82: Vec3, at_90: Vec3, exponent: f32) -> Vec3 {
-    /// The cosine of about 82 degrees, where the correction is largest.
-    const COS_82: f32 = 1.0 / 7.0;
-    let curve = |cos: f32| at_0.lerp(at_90, (1.0 - cos).max(0.0).powf(exponent));
-    let bump = |cos: f32| cos * (1.0 - cos).powi(6);
-    let dip = curve(COS_82) * (Vec3::ONE - at_82) * (bump(cos) / bump(COS_82));
-    (curve(cos) - dip).clamp(Vec3::ZERO, Vec3::ONE)
-}
+use super::albedo::{AlbedoTable, mean_over_square};
+use super::fresnel::Fresnel;
+use super::ggx::{Ggx, SMOOTH_ALPHA};
 
 /// Rough facets that reflect, single scattering.
 #[derive(Clone, Debug, PartialEq)]
-pub(crate) struct Metal {
+pub(crate) struct Microfacet {
     fresnel: Fresnel,
     ggx: Ggx,
     smooth: bool,
@@ -64,7 +18,7 @@ pub(crate) struct Metal {
     transparent: bool,
 }
 
-impl Metal {
+impl Microfacet {
     pub(crate) fn new(fresnel: Fresnel, alpha: [f32; 2]) -> Self {
         let smooth = alpha[0].max(alpha[1]) < SMOOTH_ALPHA;
         let ggx = Ggx { alpha: alpha.map(|a| a.clamp(SMOOTH_ALPHA, 1.0)) };
@@ -120,8 +74,8 @@ impl Metal {
 }
 
 /// What of the reflectances at normal and at grazing incidence counts, over the root of alpha and the cosine.
-static ALBEDO: LazyLock<FamilyTable> = LazyLock::new(|| {
-    FamilyTable::new(|root_alpha, wo| {
+static ALBEDO: LazyLock<AlbedoTable<Vec2>> = LazyLock::new(|| {
+    AlbedoTable::new(32, |root_alpha, wo| {
         let ggx = Ggx { alpha: [(root_alpha * root_alpha).max(SMOOTH_ALPHA); 2] };
         let part = |weight: fn(f32) -> f32| {
             mean_over_square(|u| {
@@ -144,32 +98,12 @@ mod tests {
     }
 
     #[test]
-    fn gold_is_golden_and_white_at_grazing() {
-        let [r, g, b] = gold().at(1.0).to_array();
-        assert!(
-            (r - 0.944).abs() < 2e-3 && (g - 0.776).abs() < 2e-3 && (b - 0.373).abs() < 2e-3,
-            "{r} {g} {b}"
-        );
-        assert!(gold().at(0.0).min_element() > 0.999);
-    }
-
-    #[test]
-    fn schlick_passes_through_its_colours() {
-        let (at_0, at_82) = (Vec3::new(0.9, 0.5, 0.2), Vec3::new(1.0, 0.8, 0.6));
-        let curve = |at_82| Fresnel::Schlick { at_0, at_82, at_90: Vec3::ONE, exponent: 5.0 };
-        assert!(curve(at_82).at(1.0).distance(at_0) < 1e-6);
-        assert!(curve(at_82).at(0.0).distance(Vec3::ONE) < 1e-6);
-        let at = 1.0 / 7.0;
-        assert!(curve(at_82).at(at).distance(curve(Vec3::ONE).at(at) * at_82) < 1e-5);
-    }
-
-    #[test]
     fn albedos_are_about_the_means_of_the_weights() {
         let schlick =
             Fresnel::Schlick { at_0: Vec3::splat(0.04), at_82: Vec3::ONE, at_90: Vec3::ONE, exponent: 5.0 };
         for (fresnel, tolerance) in [(gold(), 0.03), (schlick, 0.01)] {
             for alpha in [0.05, 0.25, 1.0] {
-                let lobe = Metal::new(fresnel, [alpha; 2]);
+                let lobe = Microfacet::new(fresnel, [alpha; 2]);
                 for cos in [0.1_f32, 0.5, 1.0] {
                     let wo = Vec3::new((1.0 - cos * cos).sqrt(), 0.0, cos);
                     let mean = mean_over_square(|u| {

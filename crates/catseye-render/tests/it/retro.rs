@@ -1,12 +1,11 @@
 //! The retro-reflective peak as a picture shows it: radiance is the BSDF in closed form.
 
-mod common;
-
 use catseye::{AnyLobe, Lobe as _, Model, Params};
 use catseye_render::light::{PointLight, SphereLight};
 use catseye_render::{Bsdf, Camera, Frame, Light, Mesh, SceneBuilder, Sphere};
-use common::picture;
 use glam::Vec3;
+
+use crate::common::picture;
 
 const DISTANCE: f32 = 15.0;
 /// A panel turned 20 degrees away, and a lamp of 1000 units of intensity.

@@ -1,11 +1,10 @@
 //! The scenes that come with the crate show what they are for.
 
-mod common;
-
 use catseye::{Model, Params};
 use catseye_materialx::{Closure, Material, ScatterMode};
 use catseye_render::{Image, Scene};
-use common::{dielectric, diffuse, layer, picture, retro, zoo};
+
+use crate::common::{dielectric, diffuse, layer, picture, retro, zoo};
 
 const SIZE: [usize; 2] = [96, 54];
 /// Pixels of the signs' white, left and right.

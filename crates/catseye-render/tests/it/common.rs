@@ -1,5 +1,4 @@
 //! What several tests need.
-#![expect(dead_code, reason = "each test file uses its own part")]
 
 use catseye::Params;
 use catseye_materialx::{Closure, ScatterMode};

@@ -1,13 +1,12 @@
-//! Promise: what a document makes vary over a surface varies in the picture, and lobes that are asked to send light back do.
-
-mod common;
+//! What a document makes vary over a surface varies in the picture, and lobes that are asked to send light back do.
 
 use catseye::Model;
 use catseye_materialx::{Closure, Document, Material};
 use catseye_render::light::Environment;
 use catseye_render::{Bsdf, Camera, Frame, Scene, SceneBuilder, Sphere};
-use common::{outgoing, picture, points};
 use glam::Vec3;
+
+use crate::common::{outgoing, picture, points};
 
 /// A material with these nodes, the surface's inputs among them.
 fn material(nodes: &str, surface: &str) -> Material {
@@ -75,7 +74,7 @@ fn retroreflective_mirrors_send_light_back() {
             let expected = if retroreflective { wo } else { mirrored };
             for u in points(4) {
                 let sample = bsdf.at(frame, wo, false).sample(u).expect("mirrors lose no sample");
-                assert!(sample.wi.distance(expected) < 1e-5 && sample.pdf.is_none(), "{wo}: {}", sample.wi);
+                assert!(sample.wi.distance(expected) < 1e-5 && sample.is_dirac, "{wo}: {}", sample.wi);
             }
         }
     }

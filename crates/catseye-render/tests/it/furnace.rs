@@ -1,11 +1,10 @@
 //! The white furnace: what returns all energy can't be seen.
 
-mod common;
-
 use catseye::{AnyLobe, Lobe as _, Model, Params};
 use catseye_materialx::ScatterMode;
 use catseye_render::{Bsdf, furnace};
-use common::{SMALL, dielectric, diffuse, layer, picture, retro};
+
+use crate::common::{SMALL, dielectric, diffuse, layer, picture, retro};
 
 /// The largest distance of any pixel from 1.
 fn visibility(bsdf: Bsdf, spp: u32, depth: u32) -> f32 {

@@ -1,0 +1,14 @@
+//! What the crate promises, a file for each promise.
+
+mod common;
+mod determinism;
+mod encode;
+mod energy;
+mod examples;
+mod furnace;
+mod instrument;
+mod light_sampling;
+mod retro;
+mod scenes;
+mod specimen;
+mod varying;
