@@ -1,14 +1,14 @@
 //! The `catseye` command: one verb, one file under `verbs`.
 
-mod args;
 mod canvas;
+mod cli;
 mod failure;
 mod figure;
 mod fitting;
 mod help;
 mod input;
 mod layout;
-mod library;
+mod options;
 mod output;
 mod photometer;
 mod plot;
@@ -26,5 +26,5 @@ use std::process::ExitCode;
 use clap::Parser as _;
 
 fn main() -> ExitCode {
-    failure::exit_code(args::Cli::parse().run())
+    failure::exit_code(cli::Cli::parse().run())
 }

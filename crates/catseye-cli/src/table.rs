@@ -8,7 +8,7 @@ use catseye::{AnyLobe, Model, Params};
 use csv::ByteRecord;
 use rayon::prelude::*;
 
-use crate::args::{Backend, ModelArg, Precision};
+use crate::options::{Backend, ModelArg, Precision};
 use crate::failure::Usage;
 use crate::input::Input;
 use crate::layout::Layout;

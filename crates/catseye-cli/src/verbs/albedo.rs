@@ -2,7 +2,7 @@
 
 use catseye::{AnyLobe, Lobe as _, Model};
 
-use crate::args::Precision;
+use crate::options::Precision;
 use crate::point::PointArgs;
 use crate::query::{Cell, Row, RowError, Scalar};
 use crate::table::{Query, TableArgs};

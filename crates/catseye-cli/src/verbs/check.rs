@@ -7,7 +7,7 @@ use anyhow::bail;
 use catseye_materialx::check;
 
 use crate::help;
-use crate::library::LibraryArgs;
+use crate::options::LibraryArgs;
 
 /// Check documents: every problem with its place
 ///

@@ -9,8 +9,8 @@ use catseye_render::{Image, encode_srgb, furnace};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
-use crate::args::ModelArg;
 use crate::failure::Usage;
+use crate::options::ModelArg;
 use crate::output::Output;
 use crate::plot::furnace::{FurnaceFigure, Tile};
 use crate::progress::Progress;

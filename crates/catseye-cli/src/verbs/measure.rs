@@ -12,7 +12,7 @@ use catseye_render::{Estimate, Specimen};
 use serde_json::{Map, Value, json};
 
 use crate::failure::Usage;
-use crate::library::MaterialArgs;
+use crate::options::MaterialArgs;
 use crate::output::Output;
 use crate::photometer::{Channel, Photometer, check_area};
 use crate::traced::{self, Traced};

@@ -12,7 +12,7 @@ use catseye_render::Specimen;
 use serde_json::json;
 
 use crate::failure::Usage;
-use crate::library::MaterialArgs;
+use crate::options::MaterialArgs;
 use crate::output::Output;
 use crate::photometer::{Channel, Photometer};
 use crate::{help, report};

@@ -5,8 +5,8 @@ use std::path::{Path, PathBuf};
 use anyhow::bail;
 use clap::Subcommand;
 
-use crate::args::ModelArg;
 use crate::failure::Usage;
+use crate::options::ModelArg;
 use crate::plot::{albedo, lobe};
 use crate::verbs::plot_ra as ra;
 use crate::{figure, help, report};

@@ -9,10 +9,9 @@ use catseye_photometry::{Geometry, Quantity, Row};
 use catseye_render::Specimen;
 use clap::ArgGroup;
 
-use crate::args::ModelArg;
 use crate::failure::Usage;
 use crate::help;
-use crate::library::LibraryArgs;
+use crate::options::{LibraryArgs, ModelArg};
 use crate::photometer::{Channel, Photometer};
 use crate::plot::axes::unbounded;
 use crate::plot::ra::{Point, RaFigure, Request};

@@ -10,9 +10,8 @@ use catseye_render::{PictureInfo, RenderSettings, Scene, ToneMap, encode_exr, en
 use clap::ValueEnum;
 use serde_json::json;
 
-use crate::args::ModelArg;
 use crate::failure::Usage;
-use crate::library::LibraryArgs;
+use crate::options::{LibraryArgs, ModelArg};
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::{help, report};

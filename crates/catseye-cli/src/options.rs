@@ -1,12 +1,53 @@
-//! The MaterialX libraries that documents may use.
+//! The options that several verbs share: lobe models, precision, and the material with its libraries.
 
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use catseye::Model;
 use catseye_materialx::{Document, Library, Material, SearchPath};
+use clap::ValueEnum;
 
-use crate::args::ModelArg;
+/// The lobe's model, by the names of [`Model::name`].
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct ModelArg(pub(crate) Model);
+
+impl ValueEnum for ModelArg {
+    fn value_variants<'a>() -> &'a [Self] {
+        const { &[Self(Model::ALL[0]), Self(Model::ALL[1]), Self(Model::ALL[2])] }
+    }
+
+    fn to_possible_value(&self) -> Option<clap::builder::PossibleValue> {
+        let help = match self.0 {
+            Model::Reciprocal => "The proposal's lobe, with multiple-scattering compensation",
+            Model::Edwards => "The paper's own lobe: albedo 1, not reciprocal",
+            Model::BackVector => {
+                "The microfacet lobe of MaterialX 1.39.5 with retroreflective = true, of the same peak"
+            }
+        };
+        Some(clap::builder::PossibleValue::new(self.0.name()).help(help))
+    }
+}
+
+/// The type that a query is answered in.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Precision {
+    /// Double precision.
+    #[default]
+    F64,
+    /// Single precision, as shaders and renderers use it.
+    F32,
+}
+
+/// What computes the answers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Backend {
+    /// The Rust code.
+    #[default]
+    Cpu,
+    /// The shader twin: part of the command line's contract, not of this version.
+    #[value(hide = true)]
+    Gpu,
+}
 
 /// Where MaterialX's libraries and the files of documents are.
 #[derive(Debug, clap::Args)]

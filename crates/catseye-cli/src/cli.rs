@@ -1,7 +1,6 @@
-//! The command line: the verbs, and the options that several of them share.
+//! The command line's verbs.
 
-use catseye::Model;
-use clap::{Parser, Subcommand, ValueEnum};
+use clap::{Parser, Subcommand};
 
 use crate::verbs::{
     albedo, eval, fit, furnace, materialx, measure, openmaterial, plot, render, roughness, sample, standards,
@@ -55,46 +54,4 @@ impl Cli {
             Verb::Openmaterial(args) => args.run(),
         }
     }
-}
-
-/// The lobe's model, by the names of [`Model::name`].
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct ModelArg(pub(crate) Model);
-
-impl ValueEnum for ModelArg {
-    fn value_variants<'a>() -> &'a [Self] {
-        const { &[Self(Model::ALL[0]), Self(Model::ALL[1]), Self(Model::ALL[2])] }
-    }
-
-    fn to_possible_value(&self) -> Option<clap::builder::PossibleValue> {
-        let help = match self.0 {
-            Model::Reciprocal => "The proposal's lobe, with multiple-scattering compensation",
-            Model::Edwards => "The paper's own lobe: albedo 1, not reciprocal",
-            Model::BackVector => {
-                "The microfacet lobe of MaterialX 1.39.5 with retroreflective = true, of the same peak"
-            }
-        };
-        Some(clap::builder::PossibleValue::new(self.0.name()).help(help))
-    }
-}
-
-/// The type that a query is answered in.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Precision {
-    /// Double precision.
-    #[default]
-    F64,
-    /// Single precision, as shaders and renderers use it.
-    F32,
-}
-
-/// What computes the answers.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Backend {
-    /// The Rust code.
-    #[default]
-    Cpu,
-    /// The shader twin: part of the command line's contract, not of this version.
-    #[value(hide = true)]
-    Gpu,
 }
