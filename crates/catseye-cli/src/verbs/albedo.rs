@@ -3,9 +3,9 @@
 use catseye::{AnyLobe, Lobe as _, Model};
 
 use crate::options::Precision;
-use crate::point::PointArgs;
-use crate::query::{Cell, Row, RowError, Scalar};
-use crate::table::{Query, TableArgs};
+use crate::query::point::PointArgs;
+use crate::query::row::{Cell, Row, RowError, Scalar};
+use crate::query::{Query, TableArgs};
 
 /// Directional albedo: CSV in, CSV out
 ///

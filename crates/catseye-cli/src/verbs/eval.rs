@@ -2,9 +2,9 @@
 
 use catseye::{AnyLobe, Lobe as _};
 
-use crate::point::PointArgs;
-use crate::query::{Cell, Row, RowError, Scalar, WI};
-use crate::table::{Query, TableArgs};
+use crate::query::point::PointArgs;
+use crate::query::row::{Cell, Row, RowError, Scalar, WI};
+use crate::query::{Query, TableArgs};
 
 /// Evaluate the BSDF: CSV in, CSV out
 ///

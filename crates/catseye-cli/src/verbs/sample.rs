@@ -2,9 +2,9 @@
 
 use catseye::{AnyLobe, Lobe as _, Sample};
 
-use crate::point::PointArgs;
-use crate::query::{Cell, Row, RowError, Scalar, U};
-use crate::table::{Query, TableArgs};
+use crate::query::point::PointArgs;
+use crate::query::row::{Cell, Row, RowError, Scalar, U};
+use crate::query::{Query, TableArgs};
 
 /// Sample the BSDF: CSV in, CSV out
 ///

@@ -1,5 +1,10 @@
 //! The CSV verbs: a table of queries in, the same table with the answers' columns out.
 
+mod input;
+mod layout;
+pub(crate) mod point;
+pub(crate) mod row;
+
 use std::io::{self, Write as _};
 use std::path::PathBuf;
 
@@ -8,13 +13,13 @@ use catseye::{AnyLobe, Model, Params};
 use csv::ByteRecord;
 use rayon::prelude::*;
 
-use crate::options::{Backend, ModelArg, Precision};
+use self::input::Input;
+use self::layout::Layout;
+use self::row::{Cell, Row, RowError, Scalar};
 use crate::failure::Usage;
-use crate::input::Input;
-use crate::layout::Layout;
+use crate::options::{Backend, ModelArg, Precision};
 use crate::output::Output;
 use crate::progress::Progress;
-use crate::query::{Cell, Row, RowError, Scalar};
 
 /// Rows read before they are answered in parallel.
 const BATCH: usize = 1 << 14;

@@ -4,7 +4,7 @@ use std::fmt::Write as _;
 
 use csv::ByteRecord;
 
-use crate::query::{Cell, Columns, Row, RowError};
+use super::row::{Cell, Columns, Row, RowError};
 
 /// The columns of the output.
 #[derive(Debug)]

@@ -2,9 +2,9 @@
 
 use anyhow::bail;
 
+use super::input::Input;
+use super::row::{PARAMS, WO};
 use crate::failure::Usage;
-use crate::input::Input;
-use crate::query::{PARAMS, WO};
 
 /// The options for everything but the query's own argument.
 #[derive(Debug, clap::Args)]
