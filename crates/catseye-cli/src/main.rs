@@ -6,15 +6,13 @@ mod failure;
 mod figure;
 mod fitting;
 mod help;
+mod instrument;
 mod options;
 mod output;
-mod photometer;
 mod plot;
 mod progress;
 mod query;
 mod report;
-mod traced;
-mod values;
 mod verbs;
 
 use std::process::ExitCode;

@@ -9,7 +9,7 @@ use catseye_photometry::openmaterial::{Assumption, OpenMaterial};
 use catseye_photometry::standards::{Catalogue, StandardClass};
 use catseye_photometry::{ApertureRule, Colour, Limit, Quantity, Row, Table};
 
-use crate::values;
+use crate::instrument::table;
 
 /// Samples of a measured BRDF that a fit looks at: more of them make it slower and no better.
 const BRDF_SAMPLES: usize = 400;
@@ -39,7 +39,7 @@ impl Subject {
         match ending.as_str() {
             "xomp" => Self::of_open_material(path),
             "dat" | "alta" | "binary" => Self::of_brdf(path, cosine),
-            _ if values::is_table(name) => Self::of_table(&values::read(path)?, only),
+            _ if table::is_table(name) => Self::of_table(&table::read(path)?, only),
             _ => Self::of_table(Catalogue::embedded()?.find(name)?.table(), only),
         }
     }

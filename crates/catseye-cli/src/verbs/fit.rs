@@ -12,8 +12,8 @@ use clap::ValueEnum;
 
 use crate::failure::Usage;
 use crate::fitting::{Outcome, Subject, page};
+use crate::instrument::check_area;
 use crate::output::Output;
-use crate::photometer::check_area;
 use crate::{help, report};
 
 /// Percent by which a model of a measured BRDF may be off on average: what three lobes make of real tapes.

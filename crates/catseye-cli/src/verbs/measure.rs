@@ -12,11 +12,12 @@ use catseye_render::{Estimate, Specimen};
 use serde_json::{Map, Value, json};
 
 use crate::failure::Usage;
+use crate::instrument::goniometer::Photometer;
+use crate::instrument::retroreflectometer::{SAMPLES, Traced};
+use crate::instrument::{Channel, check_area, table};
 use crate::options::MaterialArgs;
 use crate::output::Output;
-use crate::photometer::{Channel, Photometer, check_area};
-use crate::traced::{self, Traced};
-use crate::{help, report, values};
+use crate::{help, report};
 
 /// The geometries that are measured where none are given: those of the standards for sheeting.
 const OBSERVATIONS_DEG: [&str; 7] = ["0.1", "0.2", "0.33", "0.5", "1", "1.5", "2"];
@@ -50,7 +51,7 @@ pub(crate) struct Args {
     #[arg(long, conflicts_with = "verdict")]
     instrument: bool,
     /// Light paths of each row
-    #[arg(long, value_name = "N", default_value_t = traced::SAMPLES, requires = "instrument")]
+    #[arg(long, value_name = "N", default_value_t = SAMPLES, requires = "instrument")]
     #[arg(value_parser = clap::value_parser!(u32).range(32..=1 << 24))]
     samples: u32,
     /// Say which classes of standards the material meets, and where it fails the others, instead of the rows
@@ -127,10 +128,10 @@ impl Args {
 
     fn table(&self) -> anyhow::Result<Table> {
         if let Some(path) = &self.geometry {
-            return values::read_geometries(path);
+            return table::read_geometries(path);
         }
         if let Some(name) = &self.standard {
-            return Ok(values::joined(name, &values::classes(name)?));
+            return Ok(table::joined(name, &table::classes(name)?));
         }
         let mut text = String::from("observation_deg,entrance_deg,quantity,unit\n");
         for observation in OBSERVATIONS_DEG {
@@ -144,7 +145,7 @@ impl Args {
     /// A line for each class.
     fn judge(&self, photometer: &Photometer) -> anyhow::Result<String> {
         let classes = match &self.standard {
-            Some(name) => values::classes(name)?,
+            Some(name) => table::classes(name)?,
             None => of_colour(&self.colour)?,
         };
         // A material that can't be measured fails no standard.

@@ -12,9 +12,10 @@ use catseye_render::Specimen;
 use serde_json::json;
 
 use crate::failure::Usage;
+use crate::instrument::Channel;
+use crate::instrument::goniometer::Photometer;
 use crate::options::MaterialArgs;
 use crate::output::Output;
-use crate::photometer::{Channel, Photometer};
 use crate::{help, report};
 
 /// Write a material as ASAM `OpenMATERIAL` 3D: its coefficient of retro-reflection, and a table of its BRDF

@@ -11,11 +11,12 @@ use clap::ArgGroup;
 
 use crate::failure::Usage;
 use crate::help;
+use crate::instrument::Channel;
+use crate::instrument::goniometer::Photometer;
+use crate::instrument::table;
 use crate::options::{LibraryArgs, ModelArg};
-use crate::photometer::{Channel, Photometer};
 use crate::plot::axes::unbounded;
 use crate::plot::ra::{Point, RaFigure, Request};
-use crate::values;
 use crate::verbs::plot::finish;
 
 /// Curves of one diagram: more can't be told apart.
@@ -136,7 +137,7 @@ impl Args {
 
 /// One class by its name, or a table.
 fn one_class(name: &str) -> anyhow::Result<StandardClass> {
-    let mut classes = values::classes(name)?;
+    let mut classes = table::classes(name)?;
     if classes.len() == 1 {
         return Ok(classes.remove(0));
     }

@@ -7,7 +7,8 @@ use catseye_photometry::standards::{Catalogue, StandardClass};
 use clap::Subcommand;
 use serde_json::{Value, json};
 
-use crate::{help, report, values};
+use crate::instrument::table;
+use crate::{help, report};
 
 /// List and show the values of standards and products
 ///
@@ -61,7 +62,7 @@ impl Args {
 impl List {
     fn run(&self) -> anyhow::Result<()> {
         let classes = match &self.name {
-            Some(name) => values::classes(name)?,
+            Some(name) => table::classes(name)?,
             None => Catalogue::embedded()?.classes().to_vec(),
         };
         if self.json {
@@ -87,8 +88,8 @@ impl List {
 
 impl Show {
     fn run(&self) -> anyhow::Result<()> {
-        let classes = values::classes(&self.name)?;
-        let table = values::joined(&self.name, &classes);
+        let classes = table::classes(&self.name)?;
+        let table = table::joined(&self.name, &classes);
         if self.json {
             let rows: Vec<Value> =
                 classes.iter().flat_map(|class| class.rows().iter().map(row_facts)).collect();

@@ -1,12 +1,12 @@
 //! A material in a retroreflectometer whose light is traced: lamp and receiver have apertures and stand nearby.
 
-use anyhow::bail;
+use anyhow::anyhow;
 use catseye::Model;
 use catseye_materialx::Material;
 use catseye_photometry::{Geometry, Quantity};
 use catseye_render::{Estimate, Retroreflectometer};
 
-use crate::photometer::Channel;
+use super::{Channel, area_needed};
 
 /// Paths of each measurement where none are asked for: a standard error of 0.1 % within the lobe.
 pub(crate) const SAMPLES: u32 = 1 << 16;
@@ -33,12 +33,10 @@ impl Traced<'_> {
             _ => r_a.to_brdf(1.0, geometry).and_then(|f| quantity.of_brdf(f, geometry)),
         };
         let Some(factor) = factor else {
-            match quantity {
-                Quantity::LuminousIntensity => {
-                    bail!("R_I is of a whole reflector, R_A times its area: say which with --area-m2")
-                }
-                _ => bail!("{quantity} is an integral over directions; measure it without --instrument"),
-            }
+            return Err(match quantity {
+                Quantity::LuminousIntensity => area_needed(),
+                _ => anyhow!("{quantity} is an integral over directions; measure it without --instrument"),
+            });
         };
         let directions = [geometry.wo, geometry.wi];
         let reading =
