@@ -1,9 +1,7 @@
 //! The `catseye` command: one verb, one file under `verbs`.
 
-mod canvas;
 mod cli;
 mod failure;
-mod figure;
 mod fitting;
 mod help;
 mod instrument;

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use catseye_photometry::fit::{Fit, Trial};
 use catseye_photometry::{Quantity, Row};
 
-use crate::figure;
+use crate::plot::figure;
 use crate::plot::ra::{Point, RaFigure, Request};
 
 use super::Outcome;

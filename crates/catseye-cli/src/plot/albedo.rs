@@ -6,9 +6,9 @@ use catseye::{Model, ParamError, Params, Vec3};
 use plotters::prelude::{DrawingBackend, RGBColor};
 
 use super::axes::{Axes, unbounded};
+use super::canvas::{Canvas, GRID, INK, Lettering, MUTED};
 use super::curves::{LABEL_STEP, shade, spread};
-use crate::canvas::{Canvas, GRID, INK, Lettering, MUTED};
-use crate::figure::Figure;
+use super::figure::Figure;
 
 /// The roughnesses that are shown if none are asked for.
 const ROUGHNESSES: [f64; 9] = [0.05, 0.15, 0.3, 0.5, 0.7, 1.0, 1.5, 3.0, f64::INFINITY];

@@ -4,7 +4,7 @@ use std::ops::RangeInclusive;
 
 use plotters::prelude::DrawingBackend;
 
-use crate::canvas::{Canvas, GRID, INK, Lettering, MUTED, Point};
+use super::canvas::{Canvas, GRID, INK, Lettering, MUTED, Point};
 
 /// The rectangle that a diagram's data live in.
 #[derive(Clone, Debug)]

@@ -1,9 +1,41 @@
-//! What diagrams of several curves share: colours in an order, and labels at the curves' ends.
+//! What diagrams of several curves share: the curves of the models, colours in an order, labels at the curves' ends.
 
+use catseye::Model;
 use plotters::prelude::RGBColor;
 
 /// Least distance between the labels at the curves' ends.
 pub(crate) const LABEL_STEP: f64 = 22.0;
+
+/// The curves for one direction of the light.
+#[derive(Debug)]
+pub(crate) struct Panel {
+    pub(crate) theta_deg: f64,
+    pub(crate) curves: Vec<Curve>,
+}
+
+/// One model's values.
+#[derive(Debug)]
+pub(crate) struct Curve {
+    pub(crate) model: Model,
+    /// Angle from the normal in degrees, positive on the light's side, and f cos there.
+    pub(crate) values: Vec<(f64, f64)>,
+}
+
+impl Curve {
+    /// The curve's colour and width: a narrow line stays visible on a wide one.
+    pub(crate) fn style(&self) -> (RGBColor, f64) {
+        style(self.model)
+    }
+}
+
+/// Colours from Okabe and Ito's palette, which colour-blind people can tell apart.
+pub(crate) fn style(model: Model) -> (RGBColor, f64) {
+    match model {
+        Model::Reciprocal => (RGBColor(0x00, 0x72, 0xb2), 2.5),
+        Model::Edwards => (RGBColor(0xe6, 0x9f, 0x00), 5.0),
+        Model::BackVector => (RGBColor(0x00, 0x9e, 0x73), 2.5),
+    }
+}
 
 /// A colour between dark blue and orange, all of them legible on white.
 pub(crate) fn shade(share: f64) -> RGBColor {

@@ -3,9 +3,8 @@
 use catseye::Model;
 use plotters::prelude::DrawingBackend;
 
-use crate::canvas::{Canvas, GRID, INK, Lettering, MUTED, Point};
-use crate::figure::{self, Figure};
-use crate::verbs::furnace::Scattering;
+use super::canvas::{Canvas, GRID, INK, Lettering, MUTED, Point};
+use super::figure::{self, Figure};
 
 const MARGIN: f64 = 24.0;
 const TOP: f64 = 132.0;
@@ -15,6 +14,26 @@ const GAP: f64 = 8.0;
 /// Space below a tile for its numbers.
 const NUMBERS: f64 = 58.0;
 const CAPTION: f64 = 44.0;
+
+/// The two rows of the figure.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Scattering {
+    Single,
+    Multiple,
+}
+
+impl Scattering {
+    /// From top to bottom.
+    pub(crate) const ALL: [Self; 2] = [Self::Single, Self::Multiple];
+
+    /// The word for it.
+    pub(crate) fn name(self) -> &'static str {
+        match self {
+            Self::Single => "single",
+            Self::Multiple => "multiple",
+        }
+    }
+}
 
 /// One sphere.
 #[derive(Debug)]

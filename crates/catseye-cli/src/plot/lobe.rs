@@ -4,12 +4,13 @@ use std::ops::RangeInclusive;
 
 use anyhow::bail;
 use catseye::{AnyLobe, DIRAC_ROUGHNESS, Lobe as _, Model, ParamError, Params, Vec3, width};
-use plotters::prelude::{DrawingBackend, RGBColor};
+use plotters::prelude::DrawingBackend;
 
 use super::axes::{Axes as Frame, ticks, unbounded};
+use super::canvas::{Canvas, INK, Lettering, MUTED};
+use super::curves::{Curve, Panel, style};
+use super::figure::Figure;
 use super::polar;
-use crate::canvas::{Canvas, INK, Lettering, MUTED};
-use crate::figure::Figure;
 
 /// Steps of a curve between the horizons.
 const STEPS: i32 = 1440;
@@ -74,37 +75,6 @@ pub(crate) struct LobeFigure {
     request: Request,
     panels: Vec<Panel>,
     greatest: f64,
-}
-
-/// The curves for one direction of the light.
-#[derive(Debug)]
-pub(crate) struct Panel {
-    pub(crate) theta_deg: f64,
-    pub(crate) curves: Vec<Curve>,
-}
-
-/// One model's values.
-#[derive(Debug)]
-pub(crate) struct Curve {
-    model: Model,
-    /// Angle from the normal in degrees, positive on the light's side, and f cos there.
-    pub(crate) values: Vec<(f64, f64)>,
-}
-
-impl Curve {
-    /// The curve's colour and width: a narrow line stays visible on a wide one.
-    pub(crate) fn style(&self) -> (RGBColor, f64) {
-        style(self.model)
-    }
-}
-
-/// Colours from Okabe and Ito's palette, which colour-blind people can tell apart.
-fn style(model: Model) -> (RGBColor, f64) {
-    match model {
-        Model::Reciprocal => (RGBColor(0x00, 0x72, 0xb2), 2.5),
-        Model::Edwards => (RGBColor(0xe6, 0x9f, 0x00), 5.0),
-        Model::BackVector => (RGBColor(0x00, 0x9e, 0x73), 2.5),
-    }
 }
 
 fn legend(model: Model) -> &'static str {

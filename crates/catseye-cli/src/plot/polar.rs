@@ -3,8 +3,8 @@
 use plotters::prelude::DrawingBackend;
 
 use super::axes::{signed, ticks};
-use super::lobe::Panel;
-use crate::canvas::{Canvas, GRID, INK, Lettering, MUTED, Point};
+use super::canvas::{Canvas, GRID, INK, Lettering, MUTED, Point};
+use super::curves::Panel;
 
 /// Radius of the half disk.
 const RADIUS: f64 = 180.0;

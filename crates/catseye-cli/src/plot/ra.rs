@@ -6,9 +6,9 @@ use catseye_photometry::{Geometry, Goniometer, Limit};
 use plotters::prelude::{DrawingBackend, RGBColor};
 
 use super::axes::{Axes, signed, ticks};
+use super::canvas::{self, Canvas, GRID, INK, Lettering, MUTED};
 use super::curves::{LABEL_STEP, shade, spread};
-use crate::canvas::{self, Canvas, GRID, INK, Lettering, MUTED};
-use crate::figure::Figure;
+use super::figure::Figure;
 
 /// Points of a curve.
 const STEPS: u32 = 240;

@@ -12,7 +12,7 @@ use serde_json::{Value, json};
 use crate::failure::Usage;
 use crate::options::ModelArg;
 use crate::output::Output;
-use crate::plot::furnace::{FurnaceFigure, Tile};
+use crate::plot::furnace::{FurnaceFigure, Scattering, Tile};
 use crate::progress::Progress;
 use crate::{help, report};
 
@@ -47,26 +47,6 @@ pub(crate) struct Args {
     /// Print the numbers as JSON
     #[arg(long)]
     json: bool,
-}
-
-/// The two rows of the figure.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Scattering {
-    Single,
-    Multiple,
-}
-
-impl Scattering {
-    /// From top to bottom.
-    pub(crate) const ALL: [Self; 2] = [Self::Single, Self::Multiple];
-
-    /// The word for it.
-    pub(crate) fn name(self) -> &'static str {
-        match self {
-            Self::Single => "single",
-            Self::Multiple => "multiple",
-        }
-    }
 }
 
 /// A measured number and what it must be.

@@ -1,15 +1,16 @@
 //! `catseye plot`: pictures of the lobes, of their albedo and of coefficients of retro-reflection.
 
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use anyhow::bail;
 use clap::Subcommand;
 
 use crate::failure::Usage;
+use crate::help;
 use crate::options::ModelArg;
+use crate::plot::figure::finish;
 use crate::plot::{albedo, lobe};
 use crate::verbs::plot_ra as ra;
-use crate::{figure, help, report};
 
 /// Plot the lobes, their albedo or R_A, as SVG or PNG
 #[derive(Debug, clap::Args)]
@@ -114,12 +115,4 @@ impl AlbedoArgs {
         }
         finish(&albedo::AlbedoFigure::new(self.model.0, self.roughness.as_deref())?, &self.output, self.json)
     }
-}
-
-/// Writes the picture and says so.
-pub(crate) fn finish(figure: &impl figure::Figure, path: &Path, json: bool) -> anyhow::Result<()> {
-    figure::save(figure, path)?;
-    let (width, height) = figure.size();
-    let facts = serde_json::json!({ "output": path.display().to_string(), "width": width, "height": height });
-    report::print(json, &facts, &format!("wrote {} ({width} x {height})", path.display()))
 }

@@ -16,8 +16,8 @@ use crate::instrument::goniometer::Photometer;
 use crate::instrument::table;
 use crate::options::{LibraryArgs, ModelArg};
 use crate::plot::axes::unbounded;
+use crate::plot::figure::finish;
 use crate::plot::ra::{Point, RaFigure, Request};
-use crate::verbs::plot::finish;
 
 /// Curves of one diagram: more can't be told apart.
 const MOST_CURVES: usize = 8;

@@ -7,10 +7,12 @@ use anyhow::{anyhow, bail};
 use catseye_render::encode_png_rgb;
 use plotters::prelude::{BitMapBackend, DrawingBackend, IntoDrawingArea as _, SVGBackend};
 use plotters::style::{FontStyle, WHITE, register_font};
+use serde_json::json;
 
-use crate::canvas::Canvas;
+use super::canvas::Canvas;
 use crate::failure::Usage;
 use crate::output::Output;
+use crate::report;
 
 /// Bitmaps are drawn at this scale and then averaged: the backend's own wide lines have hard edges.
 const SUPERSAMPLE: u32 = 4;
@@ -18,7 +20,7 @@ const SUPERSAMPLE: u32 = 4;
 const SUBPIXELS: u32 = 16;
 
 /// The shipped font, `DejaVu` Sans 2.37: `assets/DejaVuSans-LICENSE.txt`.
-static FONT: &[u8] = include_bytes!("../assets/DejaVuSans.ttf");
+static FONT: &[u8] = include_bytes!("../../assets/DejaVuSans.ttf");
 
 /// Something that can be drawn on any surface.
 pub(crate) trait Figure {
@@ -50,8 +52,16 @@ impl Format {
     }
 }
 
+/// Writes the picture and says so.
+pub(crate) fn finish(figure: &impl Figure, path: &Path, json: bool) -> anyhow::Result<()> {
+    save(figure, path)?;
+    let (width, height) = figure.size();
+    let facts = json!({ "output": path.display().to_string(), "width": width, "height": height });
+    report::print(json, &facts, &format!("wrote {} ({width} x {height})", path.display()))
+}
+
 /// Draws the figure into a file.
-pub(crate) fn save(figure: &impl Figure, path: &Path) -> anyhow::Result<()> {
+fn save(figure: &impl Figure, path: &Path) -> anyhow::Result<()> {
     let format = Format::of(path)?;
     let output = Output::new(path)?;
     match format {
