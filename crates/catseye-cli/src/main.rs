@@ -2,7 +2,6 @@
 
 mod cli;
 mod failure;
-mod fitting;
 mod help;
 mod instrument;
 mod options;

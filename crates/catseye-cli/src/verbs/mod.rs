@@ -1,7 +1,6 @@
 //! One file for each verb.
 
 pub(crate) mod albedo;
-pub(crate) mod check;
 pub(crate) mod eval;
 pub(crate) mod fit;
 pub(crate) mod furnace;
@@ -9,7 +8,6 @@ pub(crate) mod materialx;
 pub(crate) mod measure;
 pub(crate) mod openmaterial;
 pub(crate) mod plot;
-pub(crate) mod plot_ra;
 pub(crate) mod render;
 pub(crate) mod roughness;
 pub(crate) mod sample;

@@ -1,5 +1,7 @@
 //! `catseye plot`: pictures of the lobes, of their albedo and of coefficients of retro-reflection.
 
+mod ra;
+
 use std::path::PathBuf;
 
 use anyhow::bail;
@@ -10,7 +12,6 @@ use crate::help;
 use crate::options::ModelArg;
 use crate::plot::figure::finish;
 use crate::plot::{albedo, lobe};
-use crate::verbs::plot_ra as ra;
 
 /// Plot the lobes, their albedo or R_A, as SVG or PNG
 #[derive(Debug, clap::Args)]

@@ -8,8 +8,7 @@ use catseye_photometry::{Quantity, Row};
 use crate::plot::figure;
 use crate::plot::ra::{Point, RaFigure, Request};
 
-use super::Outcome;
-use super::outcome::{describe, percent, short};
+use super::outcome::{Outcome, describe, percent, short};
 
 const STYLE: &str = "body{font:15px/1.5 system-ui,sans-serif;color:#22262b;max-width:60rem;margin:2rem auto;padding:0 1rem}\
 table{border-collapse:collapse;margin:.5rem 0 1.5rem}th,td{padding:.2rem .8rem;text-align:right;\

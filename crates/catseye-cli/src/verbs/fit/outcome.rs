@@ -8,7 +8,7 @@ use catseye_photometry::half_power::half_power_angle;
 use catseye_photometry::significant;
 use serde_json::{Value, json};
 
-use super::Subject;
+use super::subject::Subject;
 
 /// A fit and all that is said of it.
 #[derive(Clone, Debug)]

@@ -1,5 +1,9 @@
 //! `catseye fit`: from coefficients of retro-reflection to a material.
 
+mod outcome;
+mod page;
+mod subject;
+
 use std::path::{Path, PathBuf};
 
 use anyhow::bail;
@@ -10,8 +14,10 @@ use catseye_photometry::half_power::roughness_from_half_power_angle;
 use catseye_photometry::{Apertures, Colour, MaterialText, Quantity, to_mtlx};
 use clap::ValueEnum;
 
+use self::outcome::Outcome;
+use self::page::page;
+use self::subject::Subject;
 use crate::failure::Usage;
-use crate::fitting::{Outcome, Subject, page};
 use crate::instrument::check_area;
 use crate::output::Output;
 use crate::{help, report};

@@ -1,5 +1,7 @@
 //! `catseye materialx`: the node's data library for MaterialX.
 
+mod check;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -7,8 +9,8 @@ use anyhow::Context as _;
 use catseye_materialx::data_library::{FILES, NAME};
 use clap::Subcommand;
 
+use self::check::Check;
 use crate::help;
-use crate::verbs::check::Check;
 
 /// Work with MaterialX: write the node's data library, check documents
 #[derive(Debug, clap::Args)]
