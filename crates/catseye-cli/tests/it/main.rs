@@ -1,15 +1,21 @@
-//! The promises of the command, kept by the binary itself: one file for each kind.
+//! The promises of the command, kept by the binary itself: one file for each.
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 mod bad_input;
 mod csv_contract;
 mod fit;
 mod furnace_table;
+mod half_power;
 mod help;
+mod instrument;
 mod materialx_check;
 mod materialx_export;
-mod photometry;
+mod materialx_library;
+mod measure;
+mod openmaterial;
 mod plots;
 mod readme;
 mod render_files;
 mod run;
+mod sheeting;
+mod standards;

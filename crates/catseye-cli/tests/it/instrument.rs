@@ -1,9 +1,12 @@
-//! Promise: the ray-traced retroreflectometer and the quadrature over its apertures are one instrument, within 1 %.
+//! `catseye measure --instrument` agrees with the BSDF, and its rays with the quadrature over its apertures, within 1 %.
 
 use catseye::{AnyLobe, Lobe as _, Model, Params};
 use catseye_materialx::{Closure, Material};
 use catseye_photometry::{Apertures, Geometry, Goniometer, LUMINANCE, Quantity};
 use catseye_render::Retroreflectometer;
+
+use crate::run::{Bench, column};
+use crate::sheeting::{bench, document};
 
 /// Paths of a measurement: enough for a standard error of 0.3 %.
 const SAMPLES: u32 = 1 << 16;
@@ -61,4 +64,43 @@ fn rays_and_quadrature_agree() {
             assert!((read.value / expected - 1.0).abs() < 0.01, "{what}");
         }
     }
+}
+
+#[test]
+fn the_instrument_measures_what_the_bsdf_says() {
+    let bench = Bench::new();
+    // A lobe with a half-power angle of 1.35 degrees: apertures of 0.1 degrees blur it by less than 0.3 %.
+    bench.write("m.mtlx", &document("0.02"));
+    let run = |args: &str| {
+        let table = "observation_deg,entrance_deg,rotation_deg,unit\n\
+                     0.2,-4,0,cd/lx/m2\n0.33,30,90,cd/lx/m2\n1,40,0,1/sr\n2,-4,0,mcd/lx/m2\n";
+        let outcome = bench.catseye(&format!("measure m.mtlx --geometry - {args}"), table);
+        assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""), "{args}");
+        outcome.stdout
+    };
+    let closed = column(&run(""), "model");
+    let text = run("--instrument --samples 16384");
+    let (traced, errors) = (column(&text, "model"), column(&text, "standard_error"));
+    for ((traced, closed), error) in traced.iter().zip(closed).zip(errors) {
+        assert!((traced / closed - 1.0).abs() < 0.01, "{traced} {closed}");
+        assert!(error > 0.0 && error < 3e-3 * traced, "{error} {traced}");
+    }
+    let rows: serde_json::Value = serde_json::from_str(&run("--instrument --samples 64 --json")).unwrap();
+    assert!(rows[2]["model"].is_f64() && rows[2]["standard_error"].is_f64(), "{rows}");
+}
+
+#[test]
+fn the_instrument_says_what_it_can_not_measure() {
+    let run =
+        |args: &str, stdin: &str| bench().catseye(&format!("measure m.mtlx --instrument {args}"), stdin);
+    let integral = run("--geometry -", "observation_deg,entrance_deg,quantity,unit\n1,5,Q_d,mcd/lx/m2\n");
+    assert!(
+        integral.code == 1 && integral.stderr.contains("<stdin>:2: Q_d is an integral"),
+        "{}",
+        integral.stderr
+    );
+    let whole = run("--geometry -", "observation_deg,entrance_deg,unit\n1,5,cd/lx\n");
+    assert!(whole.code == 1 && whole.stderr.contains("--area-m2"), "{}", whole.stderr);
+    assert_eq!(run("--samples 0", "").code, 2);
+    assert_eq!(run("--verdict", "").code, 2);
 }

@@ -1,0 +1,169 @@
+//! `catseye measure` answers each row with what the library says of the material, in the row's unit.
+
+use catseye::{Lobe as _, Params, Reciprocal};
+use catseye_photometry::{Geometry, Goniometer, Quantity, RoadMarking};
+
+use crate::run::{Bench, column};
+use crate::sheeting::{bench, document, measured};
+
+/// The exact lobe's green channel in 1/sr.
+fn green(roughness: f64, geometry: &Geometry) -> f64 {
+    let lobe = Reciprocal::<f64>::new(&Params::isotropic(roughness).with_tint([0.05; 3])).unwrap();
+    lobe.eval(geometry.wo, geometry.wi)[1]
+}
+
+#[test]
+fn rows_come_back_with_the_models_value_in_their_unit() {
+    let table = "note,entrance_deg,observation_deg,unit,quantity\n\
+                 \"a, b\",-4,0.2,cd/lx/m2,\n,30,0.33,cd/fc/ft2,R_A\n,5,0.2,1/sr,f\n,5,0.5,1,Y\n,5,0.5,%,Y\n";
+    let text = measured("--geometry - --channel g", table);
+    let mut lines = text.lines();
+    assert_eq!(lines.next(), Some("note,entrance_deg,observation_deg,unit,quantity,model"));
+    assert!(lines.next().unwrap().starts_with("\"a, b\",-4,0.2,cd/lx/m2,,"));
+    let model = |line: &str| line.rsplit(',').next().unwrap().parse::<f64>().unwrap();
+    let values: Vec<f64> = text.lines().skip(1).map(model).collect();
+    let geometry = |o, e| Geometry::from(Goniometer::from_degrees(o, e, 0.0, 0.0));
+    let r_a = |g: Geometry| Quantity::RetroReflectionCoefficient.of_brdf(green(0.006, &g), &g).unwrap();
+    let y = std::f64::consts::PI * green(0.006, &geometry(0.5, 5.0));
+    let expected = [
+        r_a(geometry(0.2, -4.0)),
+        r_a(geometry(0.33, 30.0)),
+        green(0.006, &geometry(0.2, 5.0)),
+        y,
+        100.0 * y,
+    ];
+    for (value, expected) in values.iter().zip(expected) {
+        // Renderers' single precision.
+        assert!((value / expected - 1.0).abs() < 1e-3, "{value} {expected}");
+    }
+}
+
+#[test]
+fn colours_count_as_luminance() {
+    let one = "observation_deg,entrance_deg\n0.2,5\n";
+    let of = |channel: &str| column(&measured(&format!("--geometry - --channel {channel}"), one), "model")[0];
+    let luminance = 0.2126 * of("r") + 0.7152 * of("g") + 0.0722 * of("b");
+    assert!((of("luminance") / luminance - 1.0).abs() < 1e-12);
+    assert!((of("r") / of("b") - 3.0).abs() < 1e-5);
+}
+
+#[test]
+fn road_markings_are_measured_in_millicandela() {
+    let bench = Bench::new();
+    bench.write("m.mtlx", &document("0.3"));
+    let table = "observation_deg,entrance_deg,unit\n1.05,88.76,mcd/lx/m2\n";
+    let value = column(&bench.catseye("measure m.mtlx --geometry - --channel g", table).stdout, "model")[0];
+    let road = Geometry::from(RoadMarking::standard_30_m());
+    let expected = 1e3 * Quantity::RetroReflectedLuminance.of_brdf(green(0.3, &road), &road).unwrap();
+    assert!((value / expected - 1.0).abs() < 1e-3, "{value} {expected}");
+}
+
+#[test]
+fn whole_reflectors_need_an_area() {
+    let outcome = bench().catseye("measure m.mtlx --standard fmvss108:reflex:red", "");
+    assert_eq!((outcome.code, outcome.stdout.as_str()), (1, ""));
+    assert!(outcome.stderr.contains("say which with --area-m2"), "{}", outcome.stderr);
+    let table = "observation_deg,entrance_deg,quantity,unit\n0.2,5,R_I,mcd/lx\n0.2,5,R_A,cd/lx/m2\n";
+    let model = column(&measured("--geometry - --area-m2 0.002", table), "model");
+    assert!((model[0] - 2.0 * model[1]).abs() < 1e-9 * model[0], "{model:?}");
+}
+
+#[test]
+fn integrals_are_measured_too() {
+    let table =
+        "observation_deg,entrance_deg,quantity,unit\n40,0,R_T,%\n0.4,0,R_T,1\n1.05,88.76,Q_d,mcd/lx/m2\n";
+    let model = column(&measured("--geometry - --channel g", table), "model");
+    // A narrow lobe returns its tint, half of it within the half-power angle, 0.4048 degree.
+    assert!((model[0] - 5.0).abs() < 0.01 && (model[1] - 0.0247).abs() < 0.0003, "{model:?}");
+    // What an even sky returns at grazing angles is the albedo over pi.
+    assert!(model[2] > 0.0 && model[2] < 0.05 / std::f64::consts::PI * 1e3, "{model:?}");
+}
+
+#[test]
+fn without_a_table_the_geometries_of_sheeting_are_measured() {
+    let text = measured("", "");
+    assert!(text.starts_with("observation_deg,entrance_deg,quantity,unit,model\n0.1,-4,R_A,cd/lx/m2,"));
+    assert_eq!(text.lines().count(), 36);
+}
+
+#[test]
+fn json_has_the_same_rows() {
+    let text = measured("--standard fra-224:white --json", "");
+    let rows: serde_json::Value = serde_json::from_str(&text).unwrap();
+    assert_eq!(rows.as_array().unwrap().len(), 4);
+    assert_eq!(rows[0]["observation_deg"], 0.2);
+    assert_eq!(rows[0]["id"], "fra-224:rail:white");
+    let csv = measured("--standard fra-224:white", "");
+    let last = csv.lines().nth(1).unwrap().rsplit(',').next().unwrap().parse::<f64>().unwrap();
+    assert_eq!(rows[0]["model"].as_f64(), Some(last));
+}
+
+#[test]
+fn verdicts_say_where_a_class_is_missed_and_by_how_much() {
+    let text = measured("--verdict", "");
+    let lines: Vec<&str> = text.lines().collect();
+    assert!(lines.iter().any(|line| line.starts_with("meets ASTM D4956 Type I white")), "{text}");
+    assert!(
+        lines.iter().any(|line| line.starts_with("fails ISO 20471") && line.contains(" at 1.5 degree")),
+        "{text}"
+    );
+    let first_failed = lines.iter().position(|line| line.starts_with("fails ")).unwrap();
+    assert!(lines[first_failed..].iter().all(|line| line.starts_with("fails ")), "{text}");
+    let facts: serde_json::Value = serde_json::from_str(&measured("--verdict --json", "")).unwrap();
+    assert_eq!(facts.as_array().unwrap().len(), lines.len());
+    assert_eq!(facts[0]["text"], lines[0]);
+    let one = measured("--verdict --standard fmvss108:dot-c2:white", "");
+    assert_eq!(one.lines().count(), 1);
+}
+
+#[test]
+fn a_failed_measurement_writes_no_file() {
+    let bench = Bench::new();
+    bench.write("m.mtlx", &document("0"));
+    let outcome = bench.catseye("measure m.mtlx -o out.csv", "");
+    assert_eq!((outcome.code, outcome.stdout.as_str()), (1, ""));
+    assert!(outcome.stderr.contains("in a single direction (roughness 0)"), "{}", outcome.stderr);
+    assert_eq!(bench.files(), ["m.mtlx"]);
+}
+
+#[test]
+fn bad_tables_and_names_are_told_with_place_and_way_out() {
+    let head = "observation_deg,entrance_deg,value,unit";
+    let cases: &[(&str, &str, i32, &str)] = &[
+        ("--geometry -", "", 1, "<stdin>: is empty"),
+        ("--geometry -", "a\n1\n", 1, "<stdin>: missing columns observation_deg, entrance_deg"),
+        (
+            "--geometry -",
+            "H\n0.2,95,1,cd/lx/m2\n",
+            1,
+            "<stdin>:2: column entrance_deg: 95 is outside (-90, 90)",
+        ),
+        (
+            "--geometry -",
+            "H\nx,5,1,cd/lx/m2\n",
+            1,
+            "<stdin>:2: column observation_deg: \"x\" is not a number",
+        ),
+        ("--geometry -", "H\n0.2,5,1,lx\n", 1, "<stdin>:2: column unit: \"lx\" is not a known unit"),
+        ("--geometry no.csv", "", 1, "no.csv: can't be read"),
+        ("--standard -", "H\n0.2,5,250000,cd/lx/m2\n", 1, "is not plausible"),
+        (
+            "--standard fmvss108:dot-c9",
+            "",
+            1,
+            "names no class of a standard; there are fmvss108:dot-c2:white",
+        ),
+        ("--standard fmvss109", "", 1, "there are astm-d4956, fdot-994, fmvss108"),
+        ("--verdict --colour pink", "", 2, "--colour pink: no class has it; known are amber, blue"),
+        ("--verdict --standard 3m-8830", "", 1, "none of these has limits"),
+        ("--area-m2 0", "", 2, "--area-m2 must be above 0"),
+        ("--material x", "", 1, "\"x\""),
+    ];
+    for (args, stdin, code, message) in cases {
+        let stdin = stdin.replacen("H\n", &format!("{head}\n"), 1);
+        let outcome = bench().catseye(&format!("measure m.mtlx {args}"), &stdin);
+        assert_eq!((outcome.code, outcome.stdout.as_str()), (*code, ""), "{args}: {}", outcome.stderr);
+        assert!(outcome.stderr.contains(message), "{args}: {}\nwanted {message}", outcome.stderr);
+        assert_eq!(outcome.stderr.lines().count(), 1, "{}", outcome.stderr);
+    }
+}
