@@ -65,7 +65,7 @@ fn coefficients_are_plotted_with_the_values_of_any_standard_or_table() {
         "plot ra materials/sheeting.mtlx --standard t.csv -o d.svg",
         "plot ra materials/matte_white.mtlx --standard en1436:r3 -o e.svg",
         "plot ra --roughness 0.0001 --tint 0 -o f.svg",
-        "plot --ra --roughness 0.02 --standard fr-plate:white -o g.svg",
+        "plot ra --roughness 0.02 --standard fr-plate:white -o g.svg",
     ];
     for args in cases {
         let outcome = bench.catseye(args, "");

@@ -25,7 +25,6 @@ pub(crate) struct Args {
 enum What {
     Lobe(LobeArgs),
     Albedo(AlbedoArgs),
-    #[command(long_flag = "ra")]
     Ra(Box<ra::Args>),
 }
 
