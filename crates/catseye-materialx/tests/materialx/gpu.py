@@ -23,7 +23,7 @@ void main()
     vec4 c = texelFetch(rows, ivec2(at.x * 3 + 2, at.y), 0);
     ClosureData data = makeClosureData(closureType, b.xyz, a.xyz, c.xyz, vec3(0.0), 1.0);
     BSDF bsdf = BSDF(vec3(0.0), vec3(1.0));
-    mx_retro_reflective_bsdf(data, 1.0, a.w, b.w, vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), c.xyz, vec3(c.w, 0.0, 0.0), bsdf);
+    mx_retro_reflective_bsdf(data, bsdf, 1.0, a.w, b.w, vec3(1.0, 0.0, 0.0), vec3(0.0, 1.0, 0.0), c.xyz, vec3(c.w, 0.0, 0.0), bsdf);
     out1 = vec4(bsdf.response.xy, bsdf.throughput.xy);
 }
 """
@@ -33,9 +33,9 @@ REFLECTION, TRANSMISSION, INDIRECT = 1, 2, 3
 
 
 class Gpu:
-    def __init__(self, environment="NONE"):
+    def __init__(self, environment="NONE", path=None):
         self.context = moderngl.create_standalone_context(backend="egl")
-        source = stages(generate(parse(DOCUMENT, data_library()), "glsl", environment))["pixel"]
+        source = stages(generate(parse(DOCUMENT, data_library(path)), "glsl", environment, path=path))["pixel"]
         head = source[: source.index("void main()")]
         self.program = self.context.program(vertex_shader=VERTEX, fragment_shader=head + MAIN)
         self.name = self.context.info["GL_RENDERER"]

@@ -37,18 +37,42 @@ HARDWARE = ["glsl", "essl", "vk", "wgsl", "msl", "slang"]
 ENVIRONMENTS = ["NONE", "PREFILTER", "FIS"]
 
 
-def search_path():
+def search_path(*roots):
+    """The folders that hold MaterialX's `libraries`, the installed one unless others are given, and ours."""
     path = mx.getDefaultDataSearchPath()
-    path.append(mx.FilePath(str(LIBRARIES)))
+    if roots:
+        path = mx.FileSearchPath()
+    for root in (*roots, LIBRARIES):
+        path.append(mx.FilePath(str(root)))
     return path
 
 
-def data_library():
+def data_library(path=None):
     """MaterialX's definitions and ours."""
+    path = path or search_path()
     library = mx.createDocument()
-    mx.loadLibraries(mx.getDefaultDataLibraryFolders(), search_path(), library)
-    mx.loadLibraries(["catseye"], search_path(), library)
+    mx.loadLibraries(mx.getDefaultDataLibraryFolders(), path, library)
+    mx.loadLibraries(["catseye"], path, library)
     return library
+
+
+def installed():
+    """The folder that holds the installed MaterialX's `libraries`."""
+    return pathlib.Path(mx.getDefaultDataSearchPath().asString().split(os.pathsep)[0])
+
+
+def with_upstream_environment(folder):
+    """A search path on a copy of MaterialX's libraries in which each environment mode has our lobe's function, as it would
+    upstream: our file of the mode beside MaterialX's, and a line at its end that includes it."""
+    root = pathlib.Path(folder)
+    shutil.copytree(installed() / "libraries", root / "libraries")
+    lib = root / "libraries/pbrlib/genglsl/lib"
+    for path in (LIBRARIES / "catseye/genglsl/lib").glob("mx_retro_reflective_*.glsl"):
+        shutil.copy(path, lib)
+    for mode in ("fis", "prefilter", "none"):
+        with (lib / f"mx_environment_{mode}.glsl").open("a") as file:
+            file.write(f'\n#include "mx_retro_reflective_environment_{mode}.glsl"\n')
+    return search_path(root)
 
 
 def documents():
@@ -75,15 +99,16 @@ def material(document):
     return element
 
 
-def generate(document, target, environment="FIS", lights=None):
-    """The generated shader."""
+def generate(document, target, environment="FIS", lights=None, path=None, prefix="libraries"):
+    """The generated shader. MaterialX looks its own files up as `prefix`/..., on the search path."""
     generator = GENERATORS[target].create()
     colors = gen_shader.DefaultColorManagementSystem.create(generator.getTarget())
     colors.loadLibrary(document.getDataLibrary())
     generator.setColorManagementSystem(colors)
     context = gen_shader.GenContext(generator)
-    context.registerSourceCodeSearchPath(search_path())
+    context.registerSourceCodeSearchPath(path or search_path())
     options = context.getOptions()
+    options.libraryPrefix = mx.FilePath(prefix)
     options.hwSpecularEnvironmentMethod = getattr(
         gen_shader.HwSpecularEnvironmentMethod, f"SPECULAR_ENVIRONMENT_{environment}")
     options.hwMaxActiveLightSources = 4

@@ -17,6 +17,8 @@ class Library(unittest.TestCase):
         stock = mx.createDocument()
         mx.loadLibraries(mx.getDefaultDataLibraryFolders(), mx.getDefaultDataSearchPath(), stock)
         cls.ours = [d for d in cls.library.getNodeDefs() if stock.getNodeDef(d.getName()) is None]
+        # Those for authors; one with a target is internal to the implementation for it.
+        cls.public = [d for d in cls.ours if not d.getTarget()]
 
     def test_validates(self):
         valid, message = self.library.validate()
@@ -33,8 +35,8 @@ class Library(unittest.TestCase):
         text = (ROOT / "docs/materialx.md").read_text()
         rows = re.findall(r"^\| `(ND_\w+)` \|(.*)\|$", text, re.MULTILINE)
         documented = {name: [cell.strip() for cell in cells.split("|")] for name, cells in rows}
-        self.assertEqual(sorted(documented), sorted(d.getName() for d in self.ours))
-        for nodedef in self.ours:
+        self.assertEqual(sorted(documented), sorted(d.getName() for d in self.public))
+        for nodedef in self.public:
             for target, cell in zip(TARGETS, documented[nodedef.getName()], strict=True):
                 with self.subTest(nodedef=nodedef.getName(), target=target):
                     found = nodedef.getImplementation(target)
@@ -48,7 +50,7 @@ class Library(unittest.TestCase):
         return f"`{implementation.getFile()}`"
 
     def test_every_port_is_described(self):
-        for nodedef in self.ours:
+        for nodedef in self.public:
             self.assertTrue(nodedef.getDocString())
             for port in nodedef.getInputs():
                 with self.subTest(nodedef=nodedef.getName(), port=port.getName()):

@@ -1,10 +1,11 @@
-#include "libraries/pbrlib/genglsl/lib/mx_closure_type.glsl"
-#include "libraries/pbrlib/genglsl/lib/mx_microfacet_specular.glsl"
+// SPDX-License-Identifier: MIT OR Apache-2.0
+
 #include "lib/mx_retro_reflective.glsl"
 #include "lib/mx_retro_reflective_albedo.glsl"
+#include "lib/mx_retro_reflective_sample.glsl"
 #include "lib/mx_retro_reflective_environment.glsl"
 
-void mx_retro_reflective_bsdf(ClosureData closureData, float weight, float roughness_u, float roughness_v, vec3 tint, vec3 multiscatter_tint, vec3 N, vec3 X, inout BSDF bsdf)
+void mx_retro_reflective_bsdf(ClosureData closureData, BSDF declared, float weight, float roughness_u, float roughness_v, vec3 tint, vec3 multiscatter_tint, vec3 N, vec3 X, inout BSDF bsdf)
 {
     if (weight < M_FLOAT_EPS)
     {
@@ -52,7 +53,7 @@ void mx_retro_reflective_bsdf(ClosureData closureData, float weight, float rough
     else if (closureData.closureType == CLOSURE_TYPE_INDIRECT)
     {
         wo.z = max(wo.z, M_FLOAT_EPS);
-        vec3 single = mx_retro_reflective_environment(V, X, Y, N, wo, widths, 1.0 - loss_o);
+        vec3 single = mx_retro_reflective_environment(X, Y, N, wo, widths, 1.0 - loss_o);
         vec3 multiple = loss_o * mx_environment_irradiance(N);
         bsdf.response = (safeTint * single + safeMultiscatterTint * multiple) * weight;
     }

@@ -1,3 +1,5 @@
+// SPDX-License-Identifier: MIT OR Apache-2.0
+//
 // The reciprocal lobe on the halfway vector disk: docs/theory.md, section 2. Local frame: x along tangent_u, z along the
 // normal; wo towards the viewer, wi towards the light.
 // Edwards et al., "The halfway vector disk for BRDF modeling", ACM TOG 25(1), 2006: Equations 15, 20, 26, 32, 33
