@@ -13,7 +13,7 @@ use crate::{
     error::{Error, Place, listed, quoted},
     graph::{
         Feed, Graph, NodeRef, ROOT, ScopeId,
-        input::{check_connection, constant, unknown_category},
+        input::{check_connection, constant, output_feed, unknown_category},
         library::{Definition, Library},
         node::{Node, has_category, is_known},
     },
@@ -210,16 +210,7 @@ impl<'a> Checker<'a, '_> {
             {
                 return Ok(());
             }
-            let Some(feed) = self.graph.output_feed(output.scope, output.element)? else {
-                let names = ["nodename", "nodegraph"].iter().filter_map(|name| {
-                    output.element.attribute(name).map(|value| format!("{name}={}", quoted(value)))
-                });
-                let target = names.collect::<Vec<_>>().join(" ");
-                return Err(Error::Dangling { at: output.element.place(), target });
-            };
-            let ty = Type::parse(output.element.require("type")?);
-            let Some(ty) = ty else { return Ok(()) };
-            check_connection(self.graph, output, output.element, feed, ty)
+            output_feed(self.graph, output).map(|_| ())
         })();
         self.report(result);
     }

@@ -3,13 +3,14 @@
 use std::{path::Path, sync::Arc};
 
 use crate::{
-    compile::surface::Builder,
+    compile::{pattern::PatternCompiler, surface::Builder},
     error::{Error, listed, quoted},
     graph::{
         Graph, NodeRef,
         library::Library,
         look::{self, Look},
     },
+    output::Output,
     surface::Material,
     text::{
         element::Element,
@@ -96,6 +97,16 @@ impl Document {
         }
         let mut builder = Builder::new(&graph, &self.library);
         graph.materials().map(|material| builder.material(material)).collect()
+    }
+
+    /// The document's own outputs, those of its nodegraphs left out, in its order.
+    ///
+    /// # Errors
+    /// An output is connected to nothing, to what has no numbers, or to something that is wrong.
+    pub fn outputs(&self) -> Result<Vec<Output>, Error> {
+        let graph = Graph::new(&self.root, &self.library)?;
+        let mut patterns = PatternCompiler::new(&graph, &self.library);
+        self.root.children_of_kind("output").map(|output| patterns.output(output)).collect()
     }
 
     /// The names of all surface materials, in the document's order.

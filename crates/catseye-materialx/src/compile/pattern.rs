@@ -11,11 +11,14 @@ use crate::{
     color_space::{COLOR_SPACES, ColorSpace},
     error::{Error, listed, quoted},
     graph::{
-        Feed, Graph, MOST_PROBLEMS, NodeRef, ScopeId,
-        input::{check_connection, color_space, constant, no_output, output_type, unknown_category},
+        Feed, Graph, MOST_PROBLEMS, NodeRef, ROOT, ScopeId,
+        input::{
+            check_connection, color_space, constant, no_output, output_feed, output_type, unknown_category,
+        },
         library::Library,
     },
     nodes::{Lowering, Operand, Parameter, Port, Signature, signature, signatures},
+    output::Output,
     program::{Geometry, texture::Texture},
     text::{element::Element, files::Refusal},
     value::{Type, Value},
@@ -73,6 +76,23 @@ impl<'a> PatternCompiler<'a> {
             Some(_) => Err(Error::NoGraph { at: owner.place() }),
             None => Ok(self.lowering.number(0.0, ty.width())),
         }
+    }
+
+    /// One of the document's own outputs.
+    pub(crate) fn output(&mut self, element: &'a Element) -> Result<Output, Error> {
+        let name = element.require("name")?;
+        if element.attribute("nodename").or(element.attribute("nodegraph")).is_none() {
+            return Err(Error::MissingAttribute { at: element.place(), attribute: "nodename" });
+        }
+        let (feed, ty) = output_feed(self.graph, NodeRef { element, scope: ROOT })?;
+        let Some(ty) = ty.filter(|ty| ty.width() > 0) else {
+            let (found, expected) =
+                (quoted(element.require("type")?), "a type of one to four numbers".to_owned());
+            return Err(Error::WrongType { at: element.place(), found, expected });
+        };
+        let register = self.feed(element, feed, ty)?;
+        let (program, places) = self.lowering.assembler.finish(&[register]);
+        Ok(Output::new(name.to_owned(), program, places[&register]))
     }
 
     /// What feeds an input; `None` where nothing does.

@@ -46,6 +46,26 @@ pub(crate) fn output_type(
     defined.ok_or_else(|| no_output(element, output))
 }
 
+/// What an `<output>` is connected to, which is of its type, if that is a type of ours.
+pub(crate) fn output_feed<'a>(
+    graph: &Graph<'a>,
+    output: NodeRef<'a>,
+) -> Result<(Feed<'a>, Option<Type>), Error> {
+    let element = output.element;
+    let Some(feed) = graph.output_feed(output.scope, element)? else {
+        let names = ["nodename", "nodegraph"]
+            .iter()
+            .filter_map(|name| element.attribute(name).map(|value| format!("{name}={}", quoted(value))));
+        let target = names.collect::<Vec<_>>().join(" ");
+        return Err(Error::Dangling { at: element.place(), target });
+    };
+    let ty = Type::parse(element.require("type")?);
+    if let Some(ty) = ty {
+        check_connection(graph, output, element, feed, ty)?;
+    }
+    Ok((feed, ty))
+}
+
 pub(crate) fn no_output(element: &Element, output: &str) -> Error {
     Error::Dangling { at: element.place(), target: format!("output={}", quoted(output)) }
 }

@@ -5,4 +5,5 @@ mod lower;
 mod signature;
 
 pub(crate) use lower::{Lowering, Operand};
+pub use signature::pattern_categories;
 pub(crate) use signature::{Fallback, Parameter, Port, Signature, signature, signatures};

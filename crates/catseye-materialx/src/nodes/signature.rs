@@ -80,6 +80,11 @@ impl Signature {
     }
 }
 
+/// The categories of the pattern nodes that are built in; others must be defined as graphs of them.
+pub fn pattern_categories() -> impl Iterator<Item = &'static str> {
+    SIGNATURES.chunk_by(|a, b| a.category == b.category).map(|group| group[0].category)
+}
+
 /// The pattern nodes of a category; several where its inputs depend on its type.
 pub(crate) fn signatures(category: &str) -> impl Iterator<Item = &'static Signature> + '_ {
     SIGNATURES.iter().filter(move |signature| signature.category == category)

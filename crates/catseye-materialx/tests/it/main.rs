@@ -4,6 +4,7 @@ mod check;
 mod errors;
 mod hostile;
 mod node_definition;
+mod outputs;
 mod patterns;
 mod read;
 mod support;
