@@ -2,13 +2,12 @@
 
 use std::{
     collections::{HashMap, HashSet},
-    path::Path,
+    path::{Path, PathBuf},
     ptr,
     sync::Arc,
 };
 
 use crate::{
-    color_space::ColorSpace,
     compile::pattern::{bind_pattern, find_picture},
     error::{Error, Place, listed, quoted},
     graph::{
@@ -18,7 +17,7 @@ use crate::{
         node::{Node, has_category, is_known},
     },
     nodes::signature,
-    program::texture::check_size,
+    picture::{Picture, Room},
     text::{
         element::Element,
         files::SearchPath,
@@ -55,7 +54,7 @@ pub fn check_bytes(bytes: &[u8], name: &str, library: &Library) -> Vec<Error> {
 
 fn check_root(
     root: Element,
-    path: Option<std::path::PathBuf>,
+    path: Option<PathBuf>,
     search_path: &SearchPath,
     library: &Library,
 ) -> Vec<Error> {
@@ -103,7 +102,7 @@ struct Checker<'a, 'g> {
     /// What each node is connected to.
     edges: HashMap<Key, (NodeRef<'a>, Vec<NodeRef<'a>>)>,
     /// Pictures that were looked at.
-    seen: HashSet<(String, bool)>,
+    seen: HashSet<PathBuf>,
     /// Graphs of the document's own definitions that were looked at.
     entered: HashSet<*const Element>,
 }
@@ -190,15 +189,13 @@ impl<'a> Checker<'a, '_> {
 
     fn picture(&mut self, owner: &'a Element, input: &'a Element, name: &str) -> Result<(), Error> {
         let path = find_picture(self.library, owner, input, name)?;
-        let space = input.attribute("colorspace");
-        let known_space = space.is_none_or(|space| ColorSpace::named(space).is_some());
-        if !self.seen.insert((path.to_string_lossy().into_owned(), known_space)) {
+        if !self.seen.insert(path.clone()) {
             return Ok(());
         }
-        check_size(&path).map_err(|message| Error::Picture {
+        Picture::open(&path, Room::beside(0)).map(|_| ()).map_err(|refusal| Error::Picture {
             at: owner.place_of(input),
             name: quoted(name),
-            message,
+            message: refusal.to_string(),
         })
     }
 

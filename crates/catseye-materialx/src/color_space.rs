@@ -19,10 +19,6 @@ impl ColorSpace {
         (self.transfer)(x)
     }
 
-    pub(crate) fn has_primaries(&self) -> bool {
-        self.primaries.is_some()
-    }
-
     /// Rec. 709 from the space's own primaries.
     pub(crate) fn mix_primaries(&self, linear: [f32; 3]) -> [f32; 3] {
         match &self.primaries {

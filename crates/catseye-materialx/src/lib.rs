@@ -53,7 +53,7 @@
 //!
 //! Hostile documents are refused in bounded time and memory: no document type declarations, at most 16 MiB, 32 levels
 //! of elements, 64 BSDF nodes or 200 pattern nodes in a chain, 65,536 closures, 256 included files, pictures of at most 16,384
-//! pixels a side and 2 GiB together, and no file outside the document's folder and the search path.
+//! pixels a side, 2^26 pixels, and 640 MiB of memory together with what decoding takes, and no file outside the document's folder and the search path.
 
 mod check;
 mod closure;
@@ -65,6 +65,7 @@ mod error;
 mod graph;
 mod nodes;
 mod output;
+mod picture;
 mod program;
 mod surface;
 mod text;

@@ -25,6 +25,8 @@ const STEPS: f32 = 1000.0;
 /// retro-reflective sheeting, on the right the same colours as matte paint. With a material: a sphere and a folded sheet
 /// of it, lit by a headlamp 0.2 degrees beside the camera.
 ///
+/// Pictures that a material looks up may be PNG, JPEG, EXR, TIFF, HDR, TGA, BMP or GIF.
+///
 /// A look assigns materials to the paths /preview/sphere and /preview/sheet, or, with --scene night, to /night/signs,
 /// /night/cones, /night/studs and /night/posts.
 #[derive(Debug, clap::Args)]

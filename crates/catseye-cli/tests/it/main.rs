@@ -13,6 +13,7 @@ mod materialx_export;
 mod materialx_library;
 mod measure;
 mod openmaterial;
+mod pictures;
 mod plots;
 mod readme;
 mod render_files;

@@ -4,7 +4,6 @@ use std::{
     collections::{HashMap, HashSet},
     path::PathBuf,
     ptr,
-    sync::Arc,
 };
 
 use crate::{
@@ -19,7 +18,7 @@ use crate::{
     },
     nodes::{Lowering, Operand, Parameter, Port, Signature, signature, signatures},
     output::Output,
-    program::{Geometry, texture::Texture},
+    program::{Geometry, texture::Textures},
     text::{element::Element, files::Refusal},
     value::{Type, Value},
 };
@@ -28,8 +27,6 @@ use crate::{
 const MAX_DEPTH: usize = 200;
 /// Instructions of all materials of a document; the largest of MaterialX's examples has about 700.
 const MAX_INSTRUCTIONS: usize = 1 << 18;
-/// Bytes of all textures of a document.
-const MAX_TEXTURE_BYTES: usize = 2 << 30;
 
 /// A node's output at one of the places that use it.
 type Key<'a> = (ScopeId, *const Element, Option<&'a str>);
@@ -43,8 +40,7 @@ pub(crate) struct PatternCompiler<'a> {
     done: HashMap<Key<'a>, Operand>,
     /// Nodes that are being compiled, the outermost first.
     open: Vec<(Key<'a>, &'a Element)>,
-    textures: HashMap<(PathBuf, &'static str), Arc<Texture>>,
-    texture_bytes: usize,
+    textures: Textures,
 }
 
 impl<'a> PatternCompiler<'a> {
@@ -55,8 +51,7 @@ impl<'a> PatternCompiler<'a> {
             lowering: Lowering::default(),
             done: HashMap::new(),
             open: Vec::new(),
-            textures: HashMap::new(),
-            texture_bytes: 0,
+            textures: Textures::default(),
         }
     }
 
@@ -241,22 +236,11 @@ impl<'a> PatternCompiler<'a> {
             return Ok(None);
         }
         let path = find_picture(self.library, owner, input, name)?;
-        let key = (path, space.name);
-        if let Some(texture) = self.textures.get(&key) {
-            return Ok(Some(self.lowering.assembler.texture(Arc::clone(texture))));
-        }
-        let texture = Texture::load(&key.0, space).map_err(|message| Error::Picture {
+        let texture = self.textures.load(path, space).map_err(|refusal| Error::Picture {
             at: owner.place_of(input),
             name: quoted(name),
-            message,
+            message: refusal.to_string(),
         })?;
-        self.texture_bytes += texture.bytes();
-        if self.texture_bytes > MAX_TEXTURE_BYTES {
-            let (what, limit) = ("bytes of pictures", MAX_TEXTURE_BYTES);
-            return Err(Error::Limit { at: owner.place_of(input), what, limit });
-        }
-        let texture = Arc::new(texture);
-        self.textures.insert(key, Arc::clone(&texture));
         Ok(Some(self.lowering.assembler.texture(texture)))
     }
 }

@@ -1,17 +1,18 @@
 //! Pictures that patterns look up.
 
-use std::{fmt, fs::File, io::BufReader, path::Path};
+use std::{
+    collections::HashMap,
+    fmt,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
-use image::{DynamicImage, ImageReader};
+use exr::prelude::f16;
 
-use crate::color_space::ColorSpace;
-
-/// Columns or rows of a picture.
-const MAX_SIDE: u32 = 16_384;
-/// Columns times rows of a picture.
-const MAX_PIXELS: u64 = 1 << 26;
-/// Bytes of a picture's file.
-const MAX_FILE_BYTES: u64 = 256 << 20;
+use crate::{
+    color_space::ColorSpace,
+    picture::{Depth, Layout, Picture, Refusal, Room},
+};
 
 /// What lies outside the unit square of texture coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -58,67 +59,67 @@ pub(crate) enum Filter {
 
 /// A picture in linear light.
 pub(crate) struct Texture {
-    width: usize,
-    height: usize,
-    texels: Texels,
-}
-
-enum Texels {
-    /// Four bytes each, with the numbers that they stand for in colour and in alpha.
-    Bytes {
-        pixels: Vec<[u8; 4]>,
-        linear: Box<[f32; 256]>,
-        primaries: Option<&'static ColorSpace>,
-    },
-    Floats(Vec<[f32; 4]>),
+    picture: Arc<Picture>,
+    /// What each number of a picture of bytes, words or halves stands for in colour.
+    table: Box<[f32]>,
+    space: &'static ColorSpace,
 }
 
 impl Texture {
-    /// Reads a file; colours are converted from their space.
-    pub(crate) fn load(path: &Path, space: &'static ColorSpace) -> Result<Self, String> {
-        let picture = open(path)?;
-        let (width, height) = (picture.width() as usize, picture.height() as usize);
-        let texels = match picture {
-            DynamicImage::ImageRgb32F(_)
-            | DynamicImage::ImageRgba32F(_)
-            | DynamicImage::ImageLuma16(_)
-            | DynamicImage::ImageRgb16(_)
-            | DynamicImage::ImageRgba16(_)
-            | DynamicImage::ImageLumaA16(_) => {
-                let pixels = picture.into_rgba32f().into_vec();
-                let linear = |p: &[f32]| {
-                    let [r, g, b] = space.to_linear([p[0], p[1], p[2]]);
-                    [r, g, b, p[3]]
-                };
-                Texels::Floats(pixels.chunks_exact(4).map(linear).collect())
-            }
-            _ => {
-                let pixels = picture.into_rgba8().into_vec();
-                let pixels = pixels.chunks_exact(4).map(|p| [p[0], p[1], p[2], p[3]]).collect();
-                let linear = Box::new(core::array::from_fn(|i| space.transfer(i as f32 / 255.0)));
-                Texels::Bytes { pixels, linear, primaries: space.has_primaries().then_some(space) }
-            }
+    /// A picture whose colours are of this space; they are converted where they are looked up.
+    pub(crate) fn new(picture: Arc<Picture>, space: &'static ColorSpace) -> Self {
+        let linear = |count: u32, value: &dyn Fn(u16) -> f32| {
+            (0..count).map(|i| space.transfer(value(i as u16))).collect()
         };
-        Ok(Self { width, height, texels })
+        let table = match picture.layout.depth {
+            Depth::Byte => linear(1 << 8, &|byte| f32::from(byte) / 255.0),
+            Depth::Word => linear(1 << 16, &|word| f32::from(word) / 65_535.0),
+            Depth::Half => linear(1 << 16, &|half| f16::from_bits(half).to_f32()),
+            Depth::Float => Box::default(),
+        };
+        Self { picture, table, space }
     }
 
     pub(crate) fn bytes(&self) -> usize {
-        match &self.texels {
-            Texels::Bytes { pixels, .. } => pixels.len() * 4,
-            Texels::Floats(pixels) => pixels.len() * 16,
-        }
+        self.picture.samples.len() + size_of_val(&*self.table)
     }
 
     fn texel(&self, column: usize, row: usize) -> [f32; 4] {
-        let i = row * self.width + column;
-        match &self.texels {
-            Texels::Floats(pixels) => pixels[i],
-            Texels::Bytes { pixels, linear, primaries } => {
-                let [r, g, b, a] = pixels[i];
-                let rgb = [r, g, b].map(|x| linear[usize::from(x)]);
-                let [r, g, b] = primaries.map_or(rgb, |space| space.mix_primaries(rgb));
-                [r, g, b, f32::from(a) / 255.0]
+        let Layout { width, channels, .. } = self.picture.layout;
+        let pixel = (row * width + column) * channels;
+        let color = |i| self.color(pixel + i);
+        let alpha = |i| self.alpha(pixel + i);
+        let ([r, g, b], a) = match channels {
+            1 => ([color(0); 3], 1.0),
+            2 => ([color(0); 3], alpha(1)),
+            3 => ([color(0), color(1), color(2)], 1.0),
+            _ => ([color(0), color(1), color(2)], alpha(3)),
+        };
+        let [r, g, b] = self.space.mix_primaries([r, g, b]);
+        [r, g, b, a]
+    }
+
+    /// A number of the picture through the transfer function.
+    fn color(&self, i: usize) -> f32 {
+        let samples = &self.picture.samples;
+        match self.picture.layout.depth {
+            Depth::Byte => self.table[usize::from(samples[i])],
+            Depth::Word | Depth::Half => {
+                self.table[usize::from(u16::from_ne_bytes([samples[2 * i], samples[2 * i + 1]]))]
             }
+            Depth::Float => self.space.transfer(float(samples, i)),
+        }
+    }
+
+    /// A number of the picture as it is.
+    fn alpha(&self, i: usize) -> f32 {
+        let samples = &self.picture.samples;
+        let word = || u16::from_ne_bytes([samples[2 * i], samples[2 * i + 1]]);
+        match self.picture.layout.depth {
+            Depth::Byte => f32::from(samples[i]) / 255.0,
+            Depth::Word => f32::from(word()) / 65_535.0,
+            Depth::Half => f16::from_bits(word()).to_f32(),
+            Depth::Float => float(samples, i),
         }
     }
 
@@ -132,10 +133,11 @@ impl Texture {
     ) -> [f32; 4] {
         // Far outside, and where there is no number, nothing can be told apart anyway.
         let [u, v] = uv.map(|x| if x.abs() < 1e6 { x } else { 0.0 });
-        let (x, y) = (u * self.width as f32, (1.0 - v) * self.height as f32);
+        let Layout { width, height, .. } = self.picture.layout;
+        let (x, y) = (u * width as f32, (1.0 - v) * height as f32);
         let at = |column: i64, row: i64| {
-            let column = wrap[0].place(column, self.width as i64);
-            let row = wrap[1].place(row, self.height as i64);
+            let column = wrap[0].place(column, width as i64);
+            let row = wrap[1].place(row, height as i64);
             column.zip(row).map_or(default, |(column, row)| self.texel(column, row))
         };
         if filter == Filter::Closest {
@@ -154,54 +156,64 @@ impl Texture {
     }
 }
 
+/// The pictures of a document, each read once.
+#[derive(Debug, Default)]
+pub(crate) struct Textures {
+    pictures: HashMap<PathBuf, Arc<Picture>>,
+    textures: HashMap<(PathBuf, &'static str), Arc<Texture>>,
+    bytes: usize,
+}
+
+impl Textures {
+    /// A file as a texture whose colours are of this space.
+    pub(crate) fn load(
+        &mut self,
+        path: PathBuf,
+        space: &'static ColorSpace,
+    ) -> Result<Arc<Texture>, Refusal> {
+        let key = (path, space.name);
+        if let Some(known) = self.textures.get(&key) {
+            return Ok(Arc::clone(known));
+        }
+        let picture = self.picture(&key.0)?;
+        let texture = Arc::new(Texture::new(picture, space));
+        self.bytes += size_of_val(&*texture.table);
+        self.textures.insert(key, Arc::clone(&texture));
+        Ok(texture)
+    }
+
+    fn picture(&mut self, path: &Path) -> Result<Arc<Picture>, Refusal> {
+        if let Some(known) = self.pictures.get(path) {
+            return Ok(Arc::clone(known));
+        }
+        let picture = Arc::new(Picture::open(path, Room::beside(self.bytes))?);
+        self.bytes += picture.samples.len();
+        self.pictures.insert(path.to_owned(), Arc::clone(&picture));
+        Ok(picture)
+    }
+}
+
 impl fmt::Debug for Texture {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        write!(f, "Texture({} x {})", self.width, self.height)
+        let Layout { width, height, .. } = self.picture.layout;
+        write!(f, "Texture({width} x {height})")
     }
 }
 
-/// Opens a picture whose size in the file and in memory is bearable, whatever it claims.
-fn open(path: &Path) -> Result<DynamicImage, String> {
-    let mut reader = reader(path)?;
-    let mut limits = image::Limits::default();
-    limits.max_image_width = Some(MAX_SIDE);
-    limits.max_image_height = Some(MAX_SIDE);
-    limits.max_alloc = Some(1 << 30);
-    reader.limits(limits);
-    reader.decode().map_err(|cause| cause.to_string())
-}
-
-/// The size of a picture, from its head alone; an error where it is more than [`Texture::load`] reads.
-pub(crate) fn check_size(path: &Path) -> Result<(), String> {
-    reader(path).map(|_| ())
-}
-
-fn reader(path: &Path) -> Result<ImageReader<BufReader<File>>, String> {
-    let text = |cause: std::io::Error| cause.to_string();
-    let metadata = path.metadata().map_err(text)?;
-    if !metadata.is_file() || metadata.len() > MAX_FILE_BYTES {
-        return Err(format!("it is no file of at most {MAX_FILE_BYTES} bytes"));
-    }
-    let open = || ImageReader::open(path).and_then(ImageReader::with_guessed_format).map_err(text);
-    let (width, height) = open()?.into_dimensions().map_err(|cause| cause.to_string())?;
-    if width > MAX_SIDE || height > MAX_SIDE || u64::from(width) * u64::from(height) > MAX_PIXELS {
-        return Err(format!(
-            "it has {width} x {height} pixels; at most {MAX_SIDE} a side and {MAX_PIXELS} together are read"
-        ));
-    }
-    if width == 0 || height == 0 {
-        return Err("it has no pixels".to_owned());
-    }
-    open()
+fn float(samples: &[u8], i: usize) -> f32 {
+    let at = 4 * i;
+    f32::from_ne_bytes([samples[at], samples[at + 1], samples[at + 2], samples[at + 3]])
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::color_space::COLOR_SPACES;
 
     fn checker() -> Texture {
-        let pixels = vec![[0.0; 4], [1.0; 4], [2.0; 4], [3.0; 4]];
-        Texture { width: 2, height: 2, texels: Texels::Floats(pixels) }
+        let layout = Layout { width: 2, height: 2, channels: 1, depth: Depth::Float };
+        let samples = [0.0_f32, 1.0, 2.0, 3.0].iter().flat_map(|x| x.to_ne_bytes()).collect();
+        Texture::new(Arc::new(Picture { layout, samples }), &COLOR_SPACES[0])
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! Promise: patterns compute what MaterialX says they do, and constants are folded away.
 
-use std::sync::Arc;
+use std::{fs::File, path::Path, sync::Arc};
 
 use catseye::Params;
 use catseye_materialx::{Closure, Document, Library, Material, SearchPath, ShadingPoint};
@@ -197,12 +197,18 @@ fn emission_opacity_and_looks() {
     assert_eq!(looks[0].material("/boat"), None);
 }
 
+/// A picture of one colour.
+fn write_png(path: &Path, color: [u8; 3]) {
+    let mut encoder = png::Encoder::new(File::create(path).expect("a new file"), 4, 4);
+    encoder.set_color(png::ColorType::Rgb);
+    let mut header = encoder.write_header().expect("a head");
+    header.write_image_data(&color.repeat(16)).expect("pixels");
+}
+
 #[test]
 fn pictures_are_looked_up_in_their_colour_space() {
     let folder = tempfile::tempdir().unwrap();
-    image::RgbImage::from_pixel(4, 4, image::Rgb([255, 188, 0]))
-        .save(folder.path().join("flat.png"))
-        .unwrap();
+    write_png(&folder.path().join("flat.png"), [255, 188, 0]);
     let nodes = r#"<oren_nayar_diffuse_bsdf name="bsdf" type="BSDF"><input name="color" type="color3" nodename="p" /></oren_nayar_diffuse_bsdf>
         <image name="p" type="color3" fileprefix="./"><input name="file" type="filename" value="flat.png" colorspace="srgb_texture" /></image>"#;
     let path = folder.path().join("m.mtlx");
@@ -224,8 +230,7 @@ fn below_the_coat(bsdf: Closure) -> (Params<f32>, [f32; 3]) {
 #[test]
 fn retro_sheeting_surface_needs_no_search_path_and_takes_pictures() {
     let folder = tempfile::tempdir().unwrap();
-    let half = image::Rgb([255, 128, 0]);
-    image::RgbImage::from_pixel(4, 4, half).save(folder.path().join("half.png")).unwrap();
+    write_png(&folder.path().join("half.png"), [255, 128, 0]);
     let text = r#"<materialx version="1.39">
         <image name="c" type="color3"><input name="file" type="filename" value="half.png" /></image>
         <extract name="green" type="float"><input name="in" type="color3" nodename="c" /><input name="index" type="integer" value="1" /></extract>
