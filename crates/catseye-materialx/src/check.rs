@@ -8,15 +8,15 @@ use std::{
 };
 
 use crate::{
-    compile::pattern::{bind_pattern, find_picture},
+    compile::pattern::find_picture,
     error::{Error, Place, listed, quoted},
     graph::{
         Feed, Graph, NodeRef, ROOT, ScopeId,
+        bind::{Node, is_built_in},
         input::{check_connection, constant, output_feed, unknown_category},
         library::{Definition, Library},
-        node::{Node, has_category, is_known},
     },
-    nodes::signature,
+    nodes::of_category,
     picture::{Picture, Room},
     text::{
         element::Element,
@@ -213,18 +213,16 @@ impl<'a> Checker<'a, '_> {
     }
 
     fn node(&mut self, node: NodeRef<'a>) {
-        let ty = node.element.attribute("type").and_then(Type::parse);
         let mut feeds = Vec::new();
-        if is_known(node.element) || has_category(node.element) && !self.is_pattern(node.element) {
-            let bound = Node::bind_all(self.graph, node, &mut self.problems);
-            feeds.extend(bound.into_iter().flat_map(|bound| bound.feeds()));
-        } else if let Some((signature, ty)) = ty.and_then(|ty| Some((signature(node.element.tag(), ty)?, ty)))
+        if is_built_in(node.element)
+            || !of_category(node.element.tag()).is_empty()
+                && self.graph.definitions().find(node.element).is_none()
         {
-            let inputs = bind_pattern(self.graph, signature, ty, node, &mut self.problems);
-            for (_, feed, input_type) in inputs.into_iter().flatten() {
-                feeds.push(feed);
-                if input_type == Type::Filename {
-                    let result = self.value(feed, input_type);
+            let bound = Node::bind_all(self.graph, node, &mut self.problems);
+            for input in bound.into_iter().flat_map(|bound| bound.inputs) {
+                feeds.push(input.feed);
+                if input.ty == Type::Filename {
+                    let result = self.value(input.feed, input.ty);
                     self.report(result);
                 }
             }
@@ -238,12 +236,6 @@ impl<'a> Checker<'a, '_> {
             _ => None,
         });
         self.edges.insert((node.scope, ptr::from_ref(node.element)), (node, targets.collect()));
-    }
-
-    fn is_pattern(&self, element: &Element) -> bool {
-        let ty = element.attribute("type").and_then(Type::parse);
-        ty.is_some_and(|ty| signature(element.tag(), ty).is_some())
-            || self.graph.definitions().find(element).is_some()
     }
 
     /// A node that a library or the document defines.

@@ -11,6 +11,7 @@ use crate::{
         look::{self, Look},
     },
     output::Output,
+    program::Assembler,
     surface::Material,
     text::{
         element::Element,
@@ -95,7 +96,8 @@ impl Document {
         if graph.materials().next().is_none() {
             return Err(Error::NoMaterial { file: Arc::clone(&self.name) });
         }
-        let mut builder = Builder::new(&graph, &self.library);
+        let program = Assembler::default();
+        let mut builder = Builder::new(&graph, &self.library, &program);
         graph.materials().map(|material| builder.material(material)).collect()
     }
 
@@ -104,8 +106,9 @@ impl Document {
     /// # Errors
     /// An output is connected to nothing, to what has no numbers, or to something that is wrong.
     pub fn outputs(&self) -> Result<Vec<Output>, Error> {
+        let program = Assembler::default();
         let graph = Graph::new(&self.root, &self.library)?;
-        let mut patterns = PatternCompiler::new(&graph, &self.library);
+        let mut patterns = PatternCompiler::new(&graph, &self.library, &program);
         self.root.children_of_kind("output").map(|output| patterns.output(output)).collect()
     }
 
@@ -135,9 +138,10 @@ impl Document {
     /// # Errors
     /// There is no such material, there are several to choose from, or something that it refers to is wrong.
     pub fn material(&self, name: Option<&str>) -> Result<Material, Error> {
+        let program = Assembler::default();
         let graph = Graph::new(&self.root, &self.library)?;
         let material = self.choose(&graph, name)?;
-        Builder::new(&graph, &self.library).material(material)
+        Builder::new(&graph, &self.library, &program).material(material)
     }
 
     fn choose<'a>(&self, graph: &Graph<'a>, name: Option<&str>) -> Result<NodeRef<'a>, Error> {

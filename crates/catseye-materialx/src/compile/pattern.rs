@@ -1,24 +1,22 @@
 //! Compiles what feeds inputs: constants, pattern nodes, and nodes defined as graphs of them.
 
-use std::{
-    collections::{HashMap, HashSet},
-    path::PathBuf,
-    ptr,
-};
+use std::{collections::HashMap, path::PathBuf, ptr};
 
 use crate::{
     color_space::{COLOR_SPACES, ColorSpace},
     error::{Error, listed, quoted},
     graph::{
-        Feed, Graph, MOST_PROBLEMS, NodeRef, ROOT, ScopeId,
-        input::{
-            check_connection, color_space, constant, no_output, output_feed, output_type, unknown_category,
-        },
+        Feed, Graph, NodeRef, ROOT, ScopeId,
+        bind::{Input, Node, is_built_in},
+        input::{color_space, constant, no_output, output_feed, output_type, unknown_category},
         library::Library,
     },
-    nodes::{Lowering, Operand, Parameter, Port, Signature, signature, signatures},
+    nodes::{
+        Inputs, Meaning, Operand,
+        port::{Port, Types},
+    },
     output::Output,
-    program::{Geometry, texture::Textures},
+    program::{Assembler, Expr, Geometry, texture::Textures},
     text::{element::Element, files::Refusal},
     value::{Type, Value},
 };
@@ -36,40 +34,40 @@ type Key<'a> = (ScopeId, *const Element, Option<&'a str>);
 pub(crate) struct PatternCompiler<'a> {
     graph: &'a Graph<'a>,
     library: &'a Library,
-    pub(crate) lowering: Lowering,
-    done: HashMap<Key<'a>, Operand>,
+    pub(crate) program: &'a Assembler,
+    done: HashMap<Key<'a>, Operand<'a>>,
     /// Nodes that are being compiled, the outermost first.
     open: Vec<(Key<'a>, &'a Element)>,
     textures: Textures,
+    /// What is approximated, a line each.
+    pub(crate) warnings: Vec<String>,
 }
 
 impl<'a> PatternCompiler<'a> {
-    pub(crate) fn new(graph: &'a Graph<'a>, library: &'a Library) -> Self {
+    pub(crate) fn new(graph: &'a Graph<'a>, library: &'a Library, program: &'a Assembler) -> Self {
         Self {
             graph,
             library,
-            lowering: Lowering::default(),
+            program,
             done: HashMap::new(),
             open: Vec::new(),
             textures: Textures::default(),
+            warnings: Vec::new(),
         }
     }
 
-    /// The constant that feeds an input.
-    pub(crate) fn constant(&self, feed: Feed<'a>, ty: Type) -> Result<Value<'a>, Error> {
-        match feed {
-            Feed::Value { owner, input } => constant(owner, input, ty),
-            // Callers have looked.
-            _ => Ok(Value::Float(0.0)),
+    pub(crate) fn warn(&mut self, warning: String) {
+        if !self.warnings.contains(&warning) {
+            self.warnings.push(warning);
         }
     }
 
-    /// The register with what feeds an input of a BSDF, which stands in `owner`.
-    pub(crate) fn feed(&mut self, owner: &'a Element, feed: Feed<'a>, ty: Type) -> Result<u32, Error> {
+    /// What feeds an input of a BSDF, which stands in `owner`.
+    pub(crate) fn feed(&mut self, owner: &'a Element, feed: Feed<'a>, ty: Type) -> Result<Expr<'a>, Error> {
         match self.operand(feed, ty)? {
-            Some(Operand::Register(register)) => Ok(register),
+            Some(Operand::Number(x)) => Ok(x),
             Some(_) => Err(Error::NoGraph { at: owner.place() }),
-            None => Ok(self.lowering.number(0.0, ty.width())),
+            None => Ok(self.program.number(0.0).to(ty.width())),
         }
     }
 
@@ -85,51 +83,44 @@ impl<'a> PatternCompiler<'a> {
                 (quoted(element.require("type")?), "a type of one to four numbers".to_owned());
             return Err(Error::WrongType { at: element.place(), found, expected });
         };
-        let register = self.feed(element, feed, ty)?;
-        let (program, places) = self.lowering.assembler.finish(&[register]);
+        let register = self.feed(element, feed, ty)?.register();
+        let (program, places) = self.program.finish(&[register]);
         Ok(Output::new(name.to_owned(), program, places[&register]))
     }
 
     /// What feeds an input; `None` where nothing does.
-    fn operand(&mut self, feed: Feed<'a>, ty: Type) -> Result<Option<Operand>, Error> {
+    fn operand(&mut self, feed: Feed<'a>, ty: Type) -> Result<Option<Operand<'a>>, Error> {
         Ok(match feed {
             Feed::Default => None,
-            Feed::Geometry(name) => match geometric_property(name) {
-                Some(geometry) => Some(Operand::Register(self.lowering.geometry(geometry))),
-                None => Some(Operand::Register(self.lowering.number(0.0, ty.width()))),
-            },
+            Feed::Geometry(name) => Some(Operand::Number(match geometric_property(name) {
+                Some(geometry) => self.program.geometry(geometry),
+                None => self.program.number(0.0).to(ty.width()),
+            })),
             Feed::Node { node, output } => Some(self.pattern(node, output)?),
-            Feed::Value { owner, input } => Some(self.literal(owner, input, ty)?),
-        })
-    }
-
-    fn literal(&mut self, owner: &'a Element, input: &'a Element, ty: Type) -> Result<Operand, Error> {
-        Ok(match constant(owner, input, ty)? {
-            Value::String(text) => Operand::Text(text.to_owned()),
-            Value::Filename(name) => {
-                return self.texture(owner, input, name, &COLOR_SPACES[0]).map(Operand::Texture);
-            }
-            Value::Matrix33(matrix) => Operand::Matrix(matrix),
-            value if ty.width() > 0 => Operand::Register(self.lowering.lanes(value.lanes(), ty.width())),
-            _ => Operand::Text(String::new()),
+            Feed::Value { owner, input } => Some(match constant(owner, input, ty)? {
+                Value::Filename(name) => {
+                    Operand::Texture(self.texture(owner, input, name, &COLOR_SPACES[0])?)
+                }
+                value => Operand::of_value(self.program, value),
+            }),
         })
     }
 
     /// The output of a pattern node.
-    fn pattern(&mut self, node: NodeRef<'a>, output: Option<&'a str>) -> Result<Operand, Error> {
+    fn pattern(&mut self, node: NodeRef<'a>, output: Option<&'a str>) -> Result<Operand<'a>, Error> {
         let key = (node.scope, ptr::from_ref(node.element), output);
         if let Some(known) = self.done.get(&key) {
-            return Ok(known.clone());
+            return Ok(*known);
         }
         self.enter(key, node.element)?;
-        let ty = Type::parse(node.element.require("type")?);
-        let signature = ty.and_then(|ty| Some((signature(node.element.tag(), ty)?, ty)));
-        let operand = match signature {
-            Some((signature, ty)) => self.built_in(signature, ty, node, output)?,
-            None => self.defined(node, output)?,
+        node.element.require("type")?;
+        let operand = if is_built_in(node.element) {
+            Operand::Number(self.built_in(&Node::bind(self.graph, node)?, output)?)
+        } else {
+            self.defined(node, output)?
         };
         self.open.pop();
-        self.done.insert(key, operand.clone());
+        self.done.insert(key, operand);
         Ok(operand)
     }
 
@@ -142,7 +133,7 @@ impl<'a> PatternCompiler<'a> {
         if self.open.len() >= MAX_DEPTH {
             return limit("pattern nodes in a chain", MAX_DEPTH);
         }
-        if self.lowering.assembler.len() > MAX_INSTRUCTIONS {
+        if self.program.len() > MAX_INSTRUCTIONS {
             return limit("pattern instructions", MAX_INSTRUCTIONS);
         }
         self.open.push((key, element));
@@ -150,7 +141,7 @@ impl<'a> PatternCompiler<'a> {
     }
 
     /// A node that a definition's graph stands for.
-    fn defined(&mut self, node: NodeRef<'a>, output: Option<&'a str>) -> Result<Operand, Error> {
+    fn defined(&mut self, node: NodeRef<'a>, output: Option<&'a str>) -> Result<Operand<'a>, Error> {
         let definition = self.graph.definitions().find(node.element);
         let definition = definition.ok_or_else(|| unknown_category(self.graph, node.element))?;
         let ty = output_type(self.graph, node, output)?;
@@ -159,69 +150,73 @@ impl<'a> PatternCompiler<'a> {
         self.operand(inside, ty)?.ok_or_else(|| Error::NoGraph { at: node.element.place() })
     }
 
-    fn built_in(
-        &mut self,
-        signature: &'static Signature,
-        ty: Type,
-        node: NodeRef<'a>,
-        output: Option<&'a str>,
-    ) -> Result<Operand, Error> {
-        let mut problems = Vec::new();
-        let inputs = bind_pattern(self.graph, signature, ty, node, &mut problems);
-        if !problems.is_empty() {
-            return Err(problems.swap_remove(0));
+    fn built_in(&mut self, node: &Node<'a>, output: Option<&'a str>) -> Result<Expr<'a>, Error> {
+        let mut operands = Vec::with_capacity(node.inputs.len());
+        for (port, input) in node.def.inputs.iter().zip(&node.inputs) {
+            operands.push(self.argument(node, port, *input)?);
         }
-        let mut operands = Vec::with_capacity(inputs.len());
-        for (given, parameter) in inputs.iter().zip(signature.inputs) {
-            operands.push(self.argument(node.element, ty, parameter, *given)?);
+        let inputs = Inputs { program: self.program, ty: node.ty, ports: node.def.inputs, operands };
+        match node.def.meaning {
+            Meaning::Op(op) => Ok(inputs.op(op, &inputs.numbers().collect::<Vec<_>>())),
+            Meaning::Formula(formula) => Ok(formula(&inputs).to(node.ty.width())),
+            Meaning::Formulas(formulas) => {
+                let name = output.unwrap_or_default();
+                let index = node.def.outputs.iter().position(|(known, _)| *known == name);
+                let found = index.and_then(|index| formulas(&inputs).get(index).copied());
+                found.ok_or_else(|| no_output(node.node.element, name))
+            }
+            // The connection's type excludes it.
+            Meaning::Closure(_) => Err(Error::NoGraph { at: node.node.element.place() }),
         }
-        let outputs = self.lowering.node(signature, ty, &operands).ok_or_else(|| Error::Unsupported {
-            at: node.element.place(),
-            what: "one of its settings, or a varying one that must be constant,".to_owned(),
-            instead: "change it".to_owned(),
-        })?;
-        let Some(name) = output.filter(|_| !signature.outputs.is_empty()) else {
-            return Ok(Operand::Register(outputs[0]));
-        };
-        let index = signature.outputs.iter().position(|(known, _)| *known == name);
-        index.map(|index| Operand::Register(outputs[index])).ok_or_else(|| no_output(node.element, name))
     }
 
-    /// An input of a pattern node: `given` is its element, what feeds it and its type, where the node has it.
+    /// An input of a pattern node.
     fn argument(
         &mut self,
-        node: &'a Element,
-        node_type: Type,
-        parameter: &Parameter,
-        given: Option<(&'a Element, Feed<'a>, Type)>,
-    ) -> Result<Operand, Error> {
-        let width = match parameter.port {
-            Port::Is(ty) => ty.width(),
-            Port::Scalar => 1,
-            _ => node_type.width(),
-        };
-        let Some((child, feed, ty)) = given else {
-            return Ok(self.lowering.fallback(parameter.fallback, width));
-        };
-        let operand = match feed {
-            Feed::Value { owner, input } if ty == Type::Filename => {
-                let space = picture_space(owner, input, child, node_type)?;
+        node: &Node<'a>,
+        port: &'static Port,
+        given: Input<'a>,
+    ) -> Result<Operand<'a>, Error> {
+        let operand = match (given.element, given.feed) {
+            (Some(child), Feed::Value { owner, input }) if given.ty == Type::Filename => {
+                let space = picture_space(owner, input, child, node.ty)?;
                 let name = input.attribute("value").unwrap_or_default();
                 Some(Operand::Texture(self.texture(owner, input, name, space)?))
             }
-            feed => self.operand(feed, ty)?,
+            (_, feed) => self.operand(feed, given.ty)?,
         };
-        let operand = match operand {
-            Some(operand) => operand,
-            None => return Ok(self.lowering.fallback(parameter.fallback, width)),
-        };
-        Ok(match operand {
-            Operand::Register(register) if parameter.port == Port::SameOrFloat && ty == Type::Float => {
-                Operand::Register(self.lowering.splat(register, node_type.width()))
+        let Some(operand) = operand else { return Ok(Operand::of_default(self.program, port, node.ty)) };
+        let at = || node.place_of(port.name);
+        match (operand, given.ty) {
+            (Operand::Number(x), ty) if ty.width() > 0 => {
+                if port.accepts.is_uniform() {
+                    let lanes = x.constant().ok_or_else(|| varies(node, port.name))?;
+                    let value = Value::Integer(lanes[0] as i32);
+                    if let Some(refusal) = port.accepts.refusal(value, node.ty) {
+                        let message = format!("{} is {value}, {refusal}", port.name);
+                        return Err(Error::OutOfRange { at: at(), message });
+                    }
+                }
+                // A float stands for all components.
+                let width =
+                    if matches!(port.types, Types::SameOrFloat) { node.ty.width() } else { x.width() };
+                Ok(Operand::Number(x.to(width)))
             }
-            Operand::Texture(_) if ty != Type::Filename => return Err(Error::NoGraph { at: node.place() }),
-            operand => operand,
-        })
+            (Operand::Text(text), Type::String) => {
+                if let Some(refusal) = port.accepts.refusal(Value::String(text), node.ty) {
+                    let message = format!("{} is {}, {refusal}", port.name, quoted(text));
+                    return Err(Error::OutOfRange { at: at(), message });
+                }
+                if port.name == "filtertype" && text == "cubic" {
+                    self.warn(format!("{}: cubic is approximated by linear", at()));
+                }
+                Ok(operand)
+            }
+            (Operand::Matrix(_), Type::Matrix33 | Type::Matrix44) | (Operand::Texture(_), Type::Filename) => {
+                Ok(operand)
+            }
+            _ => Err(Error::NoGraph { at: at() }),
+        }
     }
 
     /// The number of a texture; `None` where no file is named.
@@ -241,7 +236,7 @@ impl<'a> PatternCompiler<'a> {
             name: quoted(name),
             message: refusal.to_string(),
         })?;
-        Ok(Some(self.lowering.assembler.texture(texture)))
+        Ok(Some(self.program.texture(texture)))
     }
 }
 
@@ -279,78 +274,6 @@ fn picture_space(
     color_space(owner, named)
 }
 
-/// What feeds the inputs of a pattern node, in the signature's order.
-pub(crate) fn bind_pattern<'a>(
-    graph: &Graph<'a>,
-    signature: &'static Signature,
-    ty: Type,
-    node: NodeRef<'a>,
-    problems: &mut Vec<Error>,
-) -> Vec<Option<(&'a Element, Feed<'a>, Type)>> {
-    let mut inputs = vec![None; signature.inputs.len()];
-    let mut seen = HashSet::new();
-    let most = problems.len() + MOST_PROBLEMS;
-    for child in node.element.children() {
-        if problems.len() >= most {
-            break;
-        }
-        match bind_input(graph, signature, ty, node, child) {
-            Ok(Some((index, feed, input_type))) => {
-                if seen.insert(index) {
-                    inputs[index] = Some((child, feed, input_type));
-                } else {
-                    let first_line = node.element.place().line;
-                    problems.push(Error::DuplicateName { at: node.element.place_of(child), first_line });
-                }
-            }
-            Ok(None) => {}
-            Err(problem) => problems.push(problem),
-        }
-    }
-    inputs
-}
-
-type Bound<'a> = (usize, Feed<'a>, Type);
-
-fn bind_input<'a>(
-    graph: &Graph<'a>,
-    signature: &'static Signature,
-    ty: Type,
-    node: NodeRef<'a>,
-    child: &'a Element,
-) -> Result<Option<Bound<'a>>, Error> {
-    let at = || node.element.place_of(child);
-    if child.tag() == "output" {
-        // Declares one of the node's outputs again: harmless.
-        return Ok(None);
-    }
-    if child.tag() != "input" {
-        let (what, instead) = ("an element other than <input> in a node".to_owned(), "remove it".to_owned());
-        return Err(Error::Unsupported { at: at(), what, instead });
-    }
-    let (name, type_name) =
-        (node.element.require_of(child, "name")?, node.element.require_of(child, "type")?);
-    let Some((index, parameter)) = signature.input(name) else {
-        let mut all = signatures(signature.category).filter(|other| other.types.contains(&ty));
-        if let Some((_, _)) = all.find_map(|other| other.input(name)) {
-            return Ok(None);
-        }
-        let known = listed(signature.inputs.iter().map(|input| input.name));
-        return Err(Error::UnknownInput { at: at(), category: signature.category.to_owned(), known });
-    };
-    let input_type = Type::parse(type_name).filter(|found| parameter.port.accepts(ty, *found));
-    let Some(input_type) = input_type else {
-        let expected = parameter.port.describe(ty);
-        return Err(Error::WrongType { at: at(), found: quoted(type_name), expected });
-    };
-    let feed = graph.feed(node, child)?;
-    check_connection(graph, node, child, feed, input_type)?;
-    if let Feed::Value { owner, input } = feed {
-        constant(owner, input, input_type)?;
-    }
-    Ok(Some((index, feed, input_type)))
-}
-
 /// What a default geometric property of MaterialX means.
 fn geometric_property(name: &str) -> Option<Geometry> {
     Some(match name {
@@ -363,4 +286,13 @@ fn geometric_property(name: &str) -> Option<Geometry> {
         "Vworld" => Geometry::View,
         _ => return None,
     })
+}
+
+/// That an input is connected to what varies, but must be the same everywhere.
+pub(crate) fn varies(node: &Node<'_>, input: &str) -> Error {
+    Error::Unsupported {
+        at: node.place_of(input),
+        what: "a connection to an input that is the same everywhere".to_owned(),
+        instead: "write the value itself".to_owned(),
+    }
 }

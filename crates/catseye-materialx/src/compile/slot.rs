@@ -7,7 +7,7 @@ use catseye::{ParamError, Params};
 use crate::{
     closure::{Closure, ScatterMode, Surface},
     error::Error,
-    nodes::closures::{Accepts, as_written},
+    nodes::{closures::as_written, port::Accepts},
     program::Lanes,
 };
 

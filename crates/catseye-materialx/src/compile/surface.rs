@@ -5,18 +5,22 @@ use std::ptr;
 use crate::{
     closure::ScatterMode,
     compile::{
-        pattern::PatternCompiler,
+        pattern::{PatternCompiler, varies},
         slot::{Leaf, Slot, SurfaceTemplate, Template, finite},
     },
     error::{Error, listed},
     graph::{
         Feed, Graph, NodeRef,
-        input::unknown_category,
+        bind::{Node, is_built_in},
+        input::{constant, unknown_category},
         library::Library,
-        node::{Node, is_known},
     },
-    nodes::closures::{Accepts, InputDefault, Kind},
-    program::{Geometry, Op},
+    nodes::{
+        Meaning,
+        closures::Kind,
+        port::{Accepts, Default},
+    },
+    program::{Assembler, Expr, Geometry},
     surface::{Material, Patterns},
     text::element::Element,
     value::{Type, Value},
@@ -35,22 +39,15 @@ pub(crate) struct Builder<'a> {
     /// The nodes between the surface and the closure being built.
     path: Vec<NodeRef<'a>>,
     closures: usize,
-    warnings: Vec<String>,
 }
 
 impl<'a> Builder<'a> {
-    pub(crate) fn new(graph: &'a Graph<'a>, library: &'a Library) -> Self {
-        Self {
-            graph,
-            patterns: PatternCompiler::new(graph, library),
-            path: Vec::new(),
-            closures: 0,
-            warnings: Vec::new(),
-        }
+    pub(crate) fn new(graph: &'a Graph<'a>, library: &'a Library, program: &'a Assembler) -> Self {
+        Self { graph, patterns: PatternCompiler::new(graph, library, program), path: Vec::new(), closures: 0 }
     }
 
     pub(crate) fn material(&mut self, material: NodeRef<'a>) -> Result<Material, Error> {
-        self.warnings.clear();
+        self.patterns.warnings.clear();
         let name = material.element.require("name")?.to_owned();
         let node = Node::bind(self.graph, material)?;
         let Some(surface) = node.connected("surfaceshader") else {
@@ -62,7 +59,7 @@ impl<'a> Builder<'a> {
 
     /// The surface node behind a shader node, which may be defined as a graph.
     fn surface(&mut self, node: NodeRef<'a>, depth: usize) -> Result<SurfaceTemplate, Error> {
-        if is_known(node.element) || depth > MAX_DEPTH {
+        if is_built_in(node.element) || depth > MAX_DEPTH {
             let node = Node::bind(self.graph, node)?;
             return self.built_in_surface(&node);
         }
@@ -85,26 +82,24 @@ impl<'a> Builder<'a> {
         if node.def.input("thin_walled").is_some() && self.boolean(node, "thin_walled")? {
             self.warn(node, "thin_walled", "thin walls are not rendered: light is refracted at each surface");
         }
-        let (bsdf, emission) = match node.def.kind {
+        let (bsdf, emission) = match kind(node) {
             Kind::SurfaceUnlit => {
-                let (strength, color) = (self.float(node, "emission")?, self.color(node, "emission_color")?);
-                let (strength, color) = (self.register(strength), self.register(color));
-                let strength = self.patterns.lowering.splat(strength, 3);
-                (Template::None, Some(self.patterns.lowering.op(Op::Multiply, 3, &[strength, color])))
+                let emission = self.bounded(node, "emission_color")? * self.bounded(node, "emission")?;
+                (Template::None, Some(emission))
             }
             _ => (self.closure(node, "bsdf")?, self.emission(node, "edf")?),
         };
         let emission = match emission {
             None => Slot::Constant([0.0; 3]),
-            Some(register) => self.slot_of(register, Accepts::NotNegative),
+            Some(emission) => slot_of(emission, Accepts::NotNegative),
         };
         Ok(SurfaceTemplate { bsdf, opacity, emission })
     }
 
     fn finish(&mut self, name: String, mut surface: SurfaceTemplate) -> Material {
         let wanted = surface.registers();
-        let warnings = core::mem::take(&mut self.warnings);
-        let (program, places) = self.patterns.lowering.assembler.finish(&wanted);
+        let warnings = core::mem::take(&mut self.patterns.warnings);
+        let (program, places) = self.patterns.program.finish(&wanted);
         surface.relocate(&|register| places[&register]);
         let mut registers = Vec::new();
         program.run(&crate::ShadingPoint::default(), &mut registers);
@@ -115,10 +110,7 @@ impl<'a> Builder<'a> {
     }
 
     fn warn(&mut self, node: &Node<'a>, input: &str, what: &str) {
-        let warning = format!("{}: {what}", node.place_of(input));
-        if !self.warnings.contains(&warning) {
-            self.warnings.push(warning);
-        }
+        self.patterns.warn(format!("{}: {what}", node.place_of(input)));
     }
 
     /// The closure that an input is connected to.
@@ -129,7 +121,7 @@ impl<'a> Builder<'a> {
 
     fn closure_of(&mut self, target: NodeRef<'a>) -> Result<Template, Error> {
         self.enter(target)?;
-        let closure = if is_known(target.element) {
+        let closure = if is_built_in(target.element) {
             let node = Node::bind(self.graph, target)?;
             self.bsdf(&node)?
         } else {
@@ -166,8 +158,14 @@ impl<'a> Builder<'a> {
     }
 
     fn bsdf(&mut self, node: &Node<'a>) -> Result<Template, Error> {
-        Ok(match node.def.kind {
+        Ok(match kind(node) {
             Kind::Mix => return self.mix(node),
+            Kind::Layer if node.input("base").0.ty == Type::Vdf => {
+                if node.connected("base").is_some() {
+                    self.warn(node, "base", "volumes are not rendered: the volume is ignored");
+                }
+                self.closure(node, "top")?
+            }
             Kind::Layer => {
                 let (top, base) = (self.boxed(node, "top")?, self.boxed(node, "base")?);
                 match (&*top, &*base) {
@@ -175,12 +173,6 @@ impl<'a> Builder<'a> {
                     (_, Template::None) if self.may_prune(node) => *top,
                     _ => Template::Layer { top, base },
                 }
-            }
-            Kind::LayerVolume => {
-                if node.connected("base").is_some() {
-                    self.warn(node, "base", "volumes are not rendered: the volume is ignored");
-                }
-                self.closure(node, "top")?
             }
             Kind::Add => Template::Add { a: self.boxed(node, "in1")?, b: self.boxed(node, "in2")? },
             Kind::Multiply => {
@@ -217,7 +209,7 @@ impl<'a> Builder<'a> {
         if weight == Slot::Constant([0.0]) && self.may_prune(node) {
             return Ok(Template::None);
         }
-        let leaf = match node.def.kind {
+        let leaf = match kind(node) {
             Kind::RetroReflective => self.retro_reflective(node)?,
             Kind::OrenNayarDiffuse => Leaf::OrenNayar {
                 color: self.color(node, "color")?,
@@ -311,14 +303,14 @@ impl<'a> Builder<'a> {
     }
 
     /// The radiance that an EDF input is connected to.
-    fn emission(&mut self, node: &Node<'a>, input: &str) -> Result<Option<u32>, Error> {
+    fn emission(&mut self, node: &Node<'a>, input: &str) -> Result<Option<Expr<'a>>, Error> {
         let Some(target) = node.connected(input) else { return Ok(None) };
         self.emission_of(target)
     }
 
-    fn emission_of(&mut self, target: NodeRef<'a>) -> Result<Option<u32>, Error> {
+    fn emission_of(&mut self, target: NodeRef<'a>) -> Result<Option<Expr<'a>>, Error> {
         self.enter(target)?;
-        let radiance = if is_known(target.element) {
+        let radiance = if is_built_in(target.element) {
             let node = Node::bind(self.graph, target)?;
             self.edf(&node)?
         } else {
@@ -330,37 +322,25 @@ impl<'a> Builder<'a> {
     }
 
     /// `None` for an EDF that emits nothing.
-    fn edf(&mut self, node: &Node<'a>) -> Result<Option<u32>, Error> {
-        let sum = |builder: &mut Self, parts: [Option<u32>; 2]| match parts {
-            [Some(a), Some(b)] => Some(builder.patterns.lowering.op(Op::Add, 3, &[a, b])),
-            [a, b] => a.or(b),
+    fn edf(&mut self, node: &Node<'a>) -> Result<Option<Expr<'a>>, Error> {
+        let sum = |a: Option<Expr<'a>>, b: Option<Expr<'a>>| match (a, b) {
+            (Some(a), Some(b)) => Some(a + b),
+            (a, b) => a.or(b),
         };
-        Ok(match node.def.kind {
+        Ok(match kind(node) {
             Kind::UniformEdf => {
-                let color = self.color(node, "color")?;
-                (color != Slot::Constant([0.0; 3])).then(|| self.register(color))
+                let color = self.bounded(node, "color")?;
+                (color.constant() != Some([0.0; 4])).then_some(color)
             }
-            Kind::AddEdf => {
-                let parts = [self.emission(node, "in1")?, self.emission(node, "in2")?];
-                sum(self, parts)
-            }
+            Kind::AddEdf => sum(self.emission(node, "in1")?, self.emission(node, "in2")?),
             Kind::MultiplyEdf => {
-                let factor = self.color(node, "in2")?;
-                let factor = self.register(factor);
-                self.emission(node, "in1")?.map(|a| self.patterns.lowering.op(Op::Multiply, 3, &[a, factor]))
+                let factor = self.bounded(node, "in2")?;
+                self.emission(node, "in1")?.map(|a| a * factor)
             }
             Kind::MixEdf => {
-                let amount = self.float(node, "mix")?;
-                let amount = self.register(amount);
-                let amount = self.patterns.lowering.splat(amount, 3);
-                let one = self.patterns.lowering.number(1.0, 3);
-                let rest = self.patterns.lowering.op(Op::Subtract, 3, &[one, amount]);
-                let part = |builder: &mut Self, input, share| -> Result<Option<u32>, Error> {
-                    let radiance = builder.emission(node, input)?;
-                    Ok(radiance.map(|a| builder.patterns.lowering.op(Op::Multiply, 3, &[a, share])))
-                };
-                let parts = [part(self, "fg", amount)?, part(self, "bg", rest)?];
-                sum(self, parts)
+                let amount = self.bounded(node, "mix")?;
+                let (fg, bg) = (self.emission(node, "fg")?, self.emission(node, "bg")?);
+                sum(fg.map(|fg| fg * amount), bg.map(|bg| bg * (1.0 - amount)))
             }
             Kind::SchlickEdf => self.schlick_edf(node)?,
             // The connection's type excludes the rest.
@@ -369,24 +349,35 @@ impl<'a> Builder<'a> {
     }
 
     /// The base's radiance times `color0 + (color90 - color0) (1 - cos)^exponent`.
-    fn schlick_edf(&mut self, node: &Node<'a>) -> Result<Option<u32>, Error> {
+    fn schlick_edf(&mut self, node: &Node<'a>) -> Result<Option<Expr<'a>>, Error> {
         let Some(base) = self.emission(node, "base")? else { return Ok(None) };
-        let (color0, color90) = (self.color(node, "color0")?, self.color(node, "color90")?);
-        let (color0, color90) = (self.register(color0), self.register(color90));
-        let exponent = self.float(node, "exponent")?;
-        let exponent = self.register(exponent);
-        let lowering = &mut self.patterns.lowering;
-        let (view, normal) = (lowering.geometry(Geometry::View), lowering.geometry(Geometry::Normal));
-        let cos = lowering.op(Op::Dot, 1, &[view, normal]);
-        let cos = lowering.op(Op::Abs, 1, &[cos]);
-        let one = lowering.number(1.0, 1);
-        let rest = lowering.op(Op::Subtract, 1, &[one, cos]);
-        let zero = lowering.number(0.0, 1);
-        let rest = lowering.op(Op::Max, 1, &[rest, zero]);
-        let power = lowering.op(Op::Power, 1, &[rest, exponent]);
-        let share = lowering.splat(power, 3);
-        let factor = lowering.op(Op::Mix, 3, &[color0, color90, share]);
-        Ok(Some(lowering.op(Op::Multiply, 3, &[base, factor])))
+        let (color0, color90) = (self.bounded(node, "color0")?, self.bounded(node, "color90")?);
+        let exponent = self.bounded(node, "exponent")?;
+        let [view, normal] =
+            [Geometry::View, Geometry::Normal].map(|own| self.patterns.program.geometry(own));
+        let share = (1.0 - view.dot(normal).abs()).max(0.0).power(exponent);
+        Ok(Some(base * color0.mix(color90, share)))
+    }
+
+    /// An input's numbers in the range of its definition, to compute with.
+    fn bounded(&mut self, node: &Node<'a>, input: &str) -> Result<Expr<'a>, Error> {
+        let x = self.expr(node, input)?;
+        Ok(match node.input(input).1.accepts {
+            Accepts::Unit => x.clamp(0.0, 1.0),
+            Accepts::NotNegative => x.max(0.0),
+            _ => x,
+        })
+    }
+
+    /// An input's numbers as they are computed.
+    fn expr(&mut self, node: &Node<'a>, input: &str) -> Result<Expr<'a>, Error> {
+        let (given, port) = node.input(input);
+        let width = given.ty.width();
+        match (given.feed, port.default) {
+            (Feed::Default, Default::Number(x)) => Ok(self.patterns.program.number(x).to(width)),
+            (Feed::Default, Default::Value(value)) => Ok(self.patterns.program.lanes(value.lanes(), width)),
+            (feed, _) => self.patterns.feed(node.node.element, feed, given.ty),
+        }
     }
 
     /// An input's numbers, computed ones in the range of its definition.
@@ -401,43 +392,14 @@ impl<'a> Builder<'a> {
         input: &str,
         accepts: Accepts,
     ) -> Result<Slot<N>, Error> {
-        let (given, def) = node.input(input);
-        let numbers = |value: Value<'_>| {
-            let lanes = value.lanes();
-            core::array::from_fn(|i| lanes[i])
-        };
-        match given.feed {
-            Feed::Value { .. } if self.graph.is_in_document(node.node.scope) => {
-                // In range, or its receiver refuses it.
-                Ok(Slot::Constant(numbers(self.patterns.constant(given.feed, def.ty())?)))
+        let is_written = matches!(node.input(input).0.feed, Feed::Value { .. } | Feed::Default);
+        let value = self.expr(node, input)?.to(N as u8);
+        match value.constant() {
+            // What a document says is in range, or its receiver refuses it.
+            Some(lanes) if is_written && self.graph.is_in_document(node.node.scope) => {
+                Ok(Slot::Constant(core::array::from_fn(|i| lanes[i])))
             }
-            Feed::Default => match def.default {
-                InputDefault::Value(value) => Ok(Slot::Constant(numbers(value))),
-                _ => Ok(Slot::Constant([0.0; N])),
-            },
-            feed => {
-                let owner = node.node.element;
-                let register = self.patterns.feed(owner, feed, def.ty())?;
-                Ok(self.slot_of(register, accepts))
-            }
-        }
-    }
-
-    fn slot_of<const N: usize>(&self, register: u32, accepts: Accepts) -> Slot<N> {
-        match self.patterns.lowering.assembler.constant(register) {
-            Some(lanes) => Slot::Constant(core::array::from_fn(|i| finite(accepts.nearest(lanes[i])))),
-            None => Slot::Register { register, accepts },
-        }
-    }
-
-    /// The register with a slot's numbers.
-    fn register<const N: usize>(&mut self, slot: Slot<N>) -> u32 {
-        match slot {
-            Slot::Register { register, .. } => register,
-            Slot::Constant(numbers) => {
-                let lanes = core::array::from_fn(|i| numbers.get(i).copied().unwrap_or(0.0));
-                self.patterns.lowering.lanes(lanes, N as u8)
-            }
+            _ => Ok(slot_of(value, accepts)),
         }
     }
 
@@ -447,27 +409,17 @@ impl<'a> Builder<'a> {
 
     /// A colour, or a float that stands for all three channels.
     fn color(&mut self, node: &Node<'a>, input: &str) -> Result<Slot<3>, Error> {
-        if node.input(input).1.ty() != Type::Float {
-            return self.slot(node, input);
-        }
-        match self.float(node, input)? {
-            Slot::Constant([x]) => Ok(Slot::Constant([x; 3])),
-            Slot::Register { register, accepts } => {
-                Ok(Slot::Register { register: self.patterns.lowering.splat(register, 3), accepts })
-            }
-        }
+        self.slot(node, input)
     }
 
     /// A direction; `None` where it is the geometry's own.
     fn direction(&mut self, node: &Node<'a>, input: &str, own: Geometry) -> Result<Option<Slot<3>>, Error> {
-        let (given, _) = node.input(input);
-        if matches!(given.feed, Feed::Default) {
+        if matches!(node.input(input).0.feed, Feed::Default) {
             return Ok(None);
         }
         let slot: Slot<3> = self.slot(node, input)?;
-        let is_own =
-            slot.register().is_some() && slot.register() == Some(self.patterns.lowering.geometry(own));
-        Ok((!is_own).then_some(slot))
+        let own = self.patterns.program.geometry(own).register();
+        Ok((slot.register() != Some(own)).then_some(slot))
     }
 
     fn boolean(&mut self, node: &Node<'a>, input: &str) -> Result<bool, Error> {
@@ -486,16 +438,14 @@ impl<'a> Builder<'a> {
 
     /// A value that can't vary over the surface.
     fn uniform(&mut self, node: &Node<'a>, input: &str) -> Result<Value<'a>, Error> {
-        let (given, def) = node.input(input);
-        match (given.feed, def.default) {
-            (Feed::Value { .. }, _) => self.patterns.constant(given.feed, def.ty()),
-            (Feed::Node { .. }, _) if def.ty() == Type::Boolean => {
-                let register = self.patterns.feed(node.node.element, given.feed, def.ty())?;
-                let constant = self.patterns.lowering.assembler.constant(register);
-                constant.map(|lanes| Value::Boolean(lanes[0] != 0.0)).ok_or_else(|| varies(node, input))
+        let (given, port) = node.input(input);
+        match (given.feed, port.default) {
+            (Feed::Value { owner, input }, _) => constant(owner, input, given.ty),
+            (Feed::Node { .. }, _) if given.ty == Type::Boolean => {
+                let value = self.patterns.feed(node.node.element, given.feed, given.ty)?.constant();
+                value.map(|lanes| Value::Boolean(lanes[0] != 0.0)).ok_or_else(|| varies(node, input))
             }
-            (Feed::Node { .. }, _) => Err(varies(node, input)),
-            (_, InputDefault::Value(value)) => Ok(value),
+            (Feed::Default, Default::Value(value)) => Ok(value),
             _ => Err(varies(node, input)),
         }
     }
@@ -509,10 +459,18 @@ impl<'a> Builder<'a> {
     }
 }
 
-fn varies(node: &Node<'_>, input: &str) -> Error {
-    Error::Unsupported {
-        at: node.place_of(input),
-        what: "a connection to an input that is the same everywhere".to_owned(),
-        instead: "write the value itself".to_owned(),
+/// What a closure node is.
+fn kind(node: &Node<'_>) -> Kind {
+    match node.def.meaning {
+        Meaning::Closure(kind) => kind,
+        // Types of closures are none of patterns.
+        _ => unreachable!("{} is no closure", node.def.category),
+    }
+}
+
+fn slot_of<const N: usize>(value: Expr<'_>, accepts: Accepts) -> Slot<N> {
+    match value.constant() {
+        Some(lanes) => Slot::Constant(core::array::from_fn(|i| finite(accepts.nearest(lanes[i])))),
+        None => Slot::Register { register: value.register(), accepts },
     }
 }

@@ -1,15 +1,10 @@
 //! Values of inputs: read as their type, in linear light, within their range.
 
-use catseye::{ParamError, Params};
-
 use crate::{
     color_space::{COLOR_SPACES, ColorSpace},
     error::{Error, listed, plain, quoted},
-    graph::{Feed, Graph, NodeRef},
-    nodes::{
-        closures::{Accepts, InputDef, InputDefault, as_written},
-        signature, signatures,
-    },
+    graph::{Feed, Graph, NodeRef, library::Definition},
+    nodes::{of_category, of_type},
     text::element::Element,
     value::{Type, Value},
 };
@@ -36,8 +31,8 @@ pub(crate) fn output_type(
         what: "a connection to a node of several outputs without output=\"...\"".to_owned(),
         instead: "name the output where it is connected".to_owned(),
     })?;
-    if let Some(signature) = signature(element.tag(), ty) {
-        let known = signature.outputs.iter().find(|(name, _)| *name == output);
+    if let Some(def) = of_type(element.tag(), ty).next() {
+        let known = def.outputs.iter().find(|(name, _)| *name == output);
         return known.map(|(_, ty)| *ty).ok_or_else(|| no_output(element, output));
     }
     let definition = graph.definitions().find(element).ok_or_else(|| unknown_category(graph, element))?;
@@ -76,16 +71,16 @@ pub(crate) fn unknown_category(graph: &Graph<'_>, element: &Element) -> Error {
     if let Some(first) = defined.first() {
         return unfitting(element, first, defined.len());
     }
-    let of_type: Vec<&str> = signatures(element.tag()).flat_map(|s| s.types).map(|ty| ty.name()).collect();
-    if !of_type.is_empty() {
+    let expected = one_of(of_category(element.tag()).iter().flat_map(|def| def.types).copied());
+    if !expected.is_empty() {
         let found = quoted(element.attribute("type").unwrap_or_default());
-        return Error::WrongType { at: element.place(), found, expected: of_type.join(" or ") };
+        return Error::WrongType { at: element.place(), found, expected };
     }
     Error::UnknownCategory { at: element.place() }
 }
 
 /// Why a node doesn't fit the first definition of its category.
-fn unfitting(element: &Element, definition: &crate::graph::library::Definition<'_>, count: usize) -> Error {
+fn unfitting(element: &Element, definition: &Definition<'_>, count: usize) -> Error {
     let expected = definition.output_type().unwrap_or_default();
     let found = element.attribute("type").unwrap_or_default();
     if count == 1 && expected != found {
@@ -114,6 +109,17 @@ fn unfitting(element: &Element, definition: &crate::graph::library::Definition<'
     }
 }
 
+/// The types' names, each once, for messages.
+pub(crate) fn one_of(types: impl Iterator<Item = Type>) -> String {
+    let mut names: Vec<&str> = Vec::new();
+    for ty in types {
+        if !names.contains(&ty.name()) {
+            names.push(ty.name());
+        }
+    }
+    names.join(" or ")
+}
+
 /// Checks the type of what an input is connected to.
 pub(crate) fn check_connection<'a>(
     graph: &Graph<'a>,
@@ -132,31 +138,6 @@ pub(crate) fn check_connection<'a>(
         found: format!("{} by its connection", quoted(found.name())),
         expected: expected.name().to_owned(),
     })
-}
-
-/// What feeds an input of a built-in BSDF or shader node, its type checked, and its value where it is `strict`.
-pub(crate) fn feed<'a>(
-    graph: &Graph<'a>,
-    node: NodeRef<'a>,
-    child: &'a Element,
-    input: &'static InputDef,
-) -> Result<Feed<'a>, Error> {
-    let feed = graph.feed(node, child)?;
-    let in_document = graph.is_in_document(node.scope);
-    check_connection(graph, node, child, feed, input.ty())?;
-    match feed {
-        Feed::Node { .. } if in_document && matches!(input.accepts, Accepts::DefaultOnly) => {
-            Err(default_only(node.element, child, input))
-        }
-        Feed::Value { owner, input: literal } => {
-            let value = constant(owner, literal, input.ty())?;
-            if in_document {
-                check_range(owner, literal, input, value)?;
-            }
-            Ok(feed)
-        }
-        _ => Ok(feed),
-    }
 }
 
 /// Reads the value of an input and converts its colour space.
@@ -185,48 +166,4 @@ pub(crate) fn color_space(owner: &Element, input: &Element) -> Result<&'static C
         colorspace: quoted(name),
         supported: listed(COLOR_SPACES.iter().map(|space| space.name)),
     })
-}
-
-fn check_range(node: &Element, child: &Element, input: &InputDef, value: Value<'_>) -> Result<(), Error> {
-    if let Some(refusal) = input.accepts.refusal(value) {
-        let message = format!("{} is {value}, {refusal}", input.name);
-        return Err(Error::OutOfRange { at: node.place_of(child), message });
-    }
-    if node.tag() == "retro_reflective_bsdf" {
-        check_params(node, child, input, value)?;
-    }
-    let is_default = matches!(input.default, InputDefault::Value(default) if default == value);
-    match input.accepts {
-        Accepts::DefaultOnly if !is_default => Err(default_only(node, child, input)),
-        _ => Ok(()),
-    }
-}
-
-/// Asks the BSDF itself about one of its parameters.
-fn check_params(node: &Element, child: &Element, input: &InputDef, value: Value<'_>) -> Result<(), Error> {
-    let mut params = Params::default();
-    match (input.name, value) {
-        ("roughness_u", Value::Float(x)) => params.roughness_u = x,
-        // A negative one stands for the default.
-        ("roughness_v", Value::Float(x)) if x >= 0.0 => params.roughness_v = Some(x),
-        ("tint", Value::Color3(color)) => params.tint = color,
-        ("multiscatter_tint", Value::Color3(color)) => params.multiscatter_tint = color,
-        _ => {}
-    }
-    let error =
-        |cause: ParamError| Error::OutOfRange { at: node.place_of(child), message: cause.to_string() };
-    as_written(&params).validate().map_err(error)
-}
-
-fn default_only(node: &Element, child: &Element, input: &InputDef) -> Error {
-    let default = match input.default {
-        InputDefault::Value(value) => value.to_string(),
-        InputDefault::Geometry(property) => format!("the geometry's {property}"),
-        InputDefault::Unconnected(_) => "unconnected".to_owned(),
-    };
-    Error::Unsupported {
-        at: node.place_of(child),
-        what: format!("anything but the default, {default},"),
-        instead: "remove the input".to_owned(),
-    }
 }

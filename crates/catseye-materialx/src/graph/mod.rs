@@ -1,9 +1,9 @@
 //! Names, scopes and connections: what feeds an input.
 
+pub(crate) mod bind;
 pub(crate) mod input;
 pub(crate) mod library;
 pub(crate) mod look;
-pub(crate) mod node;
 
 use std::{
     cell::{Cell, RefCell},

@@ -4,12 +4,14 @@
 //! instructions are stored once, and those without the geometry among their sources are computed when the document is
 //! read.
 
+mod expr;
 mod noise;
 mod op;
 pub(crate) mod texture;
 
-use std::{collections::HashMap, sync::Arc};
+use std::{cell::RefCell, collections::HashMap, sync::Arc};
 
+pub(crate) use expr::Expr;
 pub(crate) use op::{Geometry, Op};
 use texture::Texture;
 
@@ -88,9 +90,14 @@ impl Program {
     }
 }
 
-/// Makes a [`Program`].
+/// Makes a [`Program`]; its expressions share it.
 #[derive(Debug, Default)]
 pub(crate) struct Assembler {
+    state: RefCell<State>,
+}
+
+#[derive(Debug, Default)]
+struct State {
     program: Program,
     /// What registers hold that don't depend on the geometry.
     constants: Vec<Option<Lanes>>,
@@ -99,18 +106,65 @@ pub(crate) struct Assembler {
 
 impl Assembler {
     pub(crate) fn len(&self) -> usize {
-        self.program.instructions.len()
+        self.state.borrow().program.instructions.len()
     }
 
     /// The register with the result of an instruction.
-    pub(crate) fn push(&mut self, op: Op, width: u8, sources: &[u32]) -> u32 {
+    fn push(&self, op: Op, width: u8, sources: &[u32]) -> u32 {
         debug_assert!(sources.len() <= MAX_SOURCES, "{op:?} has {} sources", sources.len());
+        self.state.borrow_mut().push(op, width, sources)
+    }
+
+    /// What a register holds, wherever on the surface.
+    fn constant(&self, register: u32) -> Option<Lanes> {
+        self.state.borrow().constants[register as usize]
+    }
+
+    /// The number of a texture.
+    pub(crate) fn texture(&self, texture: Arc<Texture>) -> u32 {
+        let textures = &mut self.state.borrow_mut().program.textures;
+        match textures.iter().position(|known| Arc::ptr_eq(known, &texture)) {
+            Some(index) => index as u32,
+            None => {
+                textures.push(texture);
+                textures.len() as u32 - 1
+            }
+        }
+    }
+
+    /// The program that computes some of the registers, and where in it they are.
+    pub(crate) fn finish(&self, wanted: &[u32]) -> (Program, HashMap<u32, u32>) {
+        let all = &self.state.borrow().program;
+        let mut live = vec![false; all.instructions.len()];
+        wanted.iter().for_each(|&register| live[register as usize] = true);
+        for (register, instruction) in all.instructions.iter().enumerate().rev() {
+            if live[register] {
+                instruction.sources.iter().for_each(|&source| live[source as usize] = true);
+            }
+        }
+        let mut places = HashMap::new();
+        let mut program = Program { instructions: Vec::new(), textures: all.textures.clone() };
+        for (register, instruction) in all.instructions.iter().enumerate() {
+            if live[register] {
+                let mut instruction = instruction.clone();
+                instruction.sources.iter_mut().for_each(|source| *source = places[source]);
+                places.insert(register as u32, program.instructions.len() as u32);
+                program.instructions.push(instruction);
+            }
+        }
+        (program, places)
+    }
+}
+
+impl State {
+    fn push(&mut self, op: Op, width: u8, sources: &[u32]) -> u32 {
         let instruction = Instruction { op, width, sources: sources.into() };
         if let Some(&register) = self.known.get(&instruction) {
             return register;
         }
         if !matches!(op, Op::Constant(_)) && !op.reads_geometry() {
-            let constants: Option<Vec<Lanes>> = sources.iter().map(|&source| self.constant(source)).collect();
+            let constants: Option<Vec<Lanes>> =
+                sources.iter().map(|&source| self.constants[source as usize]).collect();
             if let Some(constants) = constants {
                 let mut lanes = [[0.0; 4]; MAX_SOURCES];
                 lanes[..constants.len()].copy_from_slice(&constants);
@@ -128,49 +182,6 @@ impl Assembler {
         self.known.insert(instruction, register);
         register
     }
-
-    /// How many components a register has.
-    pub(crate) fn width(&self, register: u32) -> u8 {
-        self.program.instructions[register as usize].width
-    }
-
-    /// What a register holds, wherever on the surface.
-    pub(crate) fn constant(&self, register: u32) -> Option<Lanes> {
-        self.constants[register as usize]
-    }
-
-    pub(crate) fn texture(&mut self, texture: Arc<Texture>) -> u32 {
-        let textures = &mut self.program.textures;
-        match textures.iter().position(|known| Arc::ptr_eq(known, &texture)) {
-            Some(index) => index as u32,
-            None => {
-                textures.push(texture);
-                textures.len() as u32 - 1
-            }
-        }
-    }
-
-    /// The program that computes some of the registers, and where in it they are.
-    pub(crate) fn finish(&self, wanted: &[u32]) -> (Program, HashMap<u32, u32>) {
-        let mut live = vec![false; self.len()];
-        wanted.iter().for_each(|&register| live[register as usize] = true);
-        for (register, instruction) in self.program.instructions.iter().enumerate().rev() {
-            if live[register] {
-                instruction.sources.iter().for_each(|&source| live[source as usize] = true);
-            }
-        }
-        let mut places = HashMap::new();
-        let mut program = Program { instructions: Vec::new(), textures: self.program.textures.clone() };
-        for (register, instruction) in self.program.instructions.iter().enumerate() {
-            if live[register] {
-                let mut instruction = instruction.clone();
-                instruction.sources.iter_mut().for_each(|source| *source = places[source]);
-                places.insert(register as u32, program.instructions.len() as u32);
-                program.instructions.push(instruction);
-            }
-        }
-        (program, places)
-    }
 }
 
 #[cfg(test)]
@@ -179,19 +190,16 @@ mod tests {
 
     #[test]
     fn constants_are_folded_and_equal_instructions_shared() {
-        let mut assembler = Assembler::default();
-        let two = assembler.push(Op::constant([2.0, 0.0, 0.0, 0.0]), 1, &[]);
-        let three = assembler.push(Op::constant([3.0, 0.0, 0.0, 0.0]), 1, &[]);
-        let five = assembler.push(Op::Add, 1, &[two, three]);
-        assert_eq!(assembler.constant(five), Some([5.0, 0.0, 0.0, 0.0]));
-        let uv = assembler.push(Op::Geometry(Geometry::Texcoord), 2, &[]);
-        let sum = assembler.push(Op::Add, 2, &[uv, uv]);
-        assert_eq!(assembler.push(Op::Add, 2, &[uv, uv]), sum);
-        assert_eq!(assembler.constant(sum), None);
-        let (program, places) = assembler.finish(&[sum]);
+        let assembler = Assembler::default();
+        assert_eq!((assembler.number(2.0) + 3.0).constant(), Some([5.0, 0.0, 0.0, 0.0]));
+        let uv = assembler.geometry(Geometry::Texcoord);
+        let sum = uv + uv;
+        assert_eq!((uv + uv).register(), sum.register());
+        assert_eq!(sum.constant(), None);
+        let (program, places) = assembler.finish(&[sum.register()]);
         assert_eq!(program.instructions.len(), 2);
         let mut registers = Vec::new();
         program.run(&ShadingPoint { texcoord: [0.25, 0.5], ..ShadingPoint::default() }, &mut registers);
-        assert_eq!(registers[places[&sum] as usize], [0.5, 1.0, 0.0, 0.0]);
+        assert_eq!(registers[places[&sum.register()] as usize], [0.5, 1.0, 0.0, 0.0]);
     }
 }

@@ -1,6 +1,8 @@
 //! Promise: `check` names every problem of a document in one go, and nothing that is none.
 
-use catseye_materialx::{Library, check, check_bytes};
+use catseye_materialx::{Document, Library, check, check_bytes};
+
+use crate::support::document;
 
 const FAULTY: &str = r#"<materialx version="1.39">
 <hair_bsdf name="hair" type="BSDF" />
@@ -89,5 +91,60 @@ fn our_own_materials_are_without_problems() {
             let problems = check(&path, &Library::default());
             assert!(problems.is_empty(), "{problems:?}");
         }
+    }
+}
+
+/// Reading a material and checking its document refuse the same words and integers, with the same text.
+#[test]
+fn unknown_words_are_refused_by_check_and_by_reading() {
+    let cases = [
+        ("swizzle", "color3", r#"<input name="channels" type="string" value="rgq" />"#, "channels"),
+        ("swizzle", "color3", r#"<input name="channels" type="string" value="rgba" />"#, "channels"),
+        ("worleynoise2d", "vector3", r#"<input name="style" type="integer" value="1" />"#, "style"),
+        ("image", "color3", r#"<input name="uaddressmode" type="string" value="bogus" />"#, "uaddressmode"),
+        ("image", "color3", r#"<input name="filtertype" type="string" value="bogus" />"#, "filtertype"),
+        (
+            "tiledimage",
+            "color3",
+            r#"<input name="frameendaction" type="string" value="x" />"#,
+            "frameendaction",
+        ),
+        (
+            "place2d",
+            "vector2",
+            r#"<input name="operationorder" type="integer" value="7" />"#,
+            "operationorder",
+        ),
+        ("normal", "vector3", r#"<input name="space" type="string" value="bogus" />"#, "space"),
+        ("tangent", "vector3", r#"<input name="space" type="string" value="bogus" />"#, "space"),
+        ("position", "vector3", r#"<input name="space" type="string" value="bogus" />"#, "space"),
+        ("viewdirection", "vector3", r#"<input name="space" type="string" value="bogus" />"#, "space"),
+        ("extract", "float", r#"<input name="index" type="integer" value="4" />"#, "index"),
+        ("fractal2d", "vector3", r#"<input name="octaves" type="integer" value="99" />"#, "octaves"),
+        (
+            "dielectric_bsdf",
+            "BSDF",
+            r#"<input name="scatter_mode" type="string" value="X" />"#,
+            "scatter_mode",
+        ),
+    ];
+    for (category, ty, input, name) in cases {
+        let node = format!(r#"<{category} name="p" type="{ty}">{input}</{category}>"#);
+        let nodes = match ty {
+            "BSDF" => node.replace("\"p\"", "\"bsdf\""),
+            "color3" => format!(
+                r#"<oren_nayar_diffuse_bsdf name="bsdf" type="BSDF"><input name="color" type="color3" nodename="p" /></oren_nayar_diffuse_bsdf>{node}"#
+            ),
+            _ => format!(
+                r#"<oren_nayar_diffuse_bsdf name="bsdf" type="BSDF"><input name="color" type="color3" nodename="c" /></oren_nayar_diffuse_bsdf>
+                <convert name="c" type="color3"><input name="in" type="{ty}" nodename="p" /></convert>{node}"#
+            ),
+        };
+        let text = document(&nodes);
+        let problems = check_bytes(text.as_bytes(), "m.mtlx", &Library::default());
+        let read = Document::parse(&text, "m.mtlx").unwrap().material(None).expect_err(&text);
+        let found: Vec<String> = problems.iter().map(ToString::to_string).collect();
+        assert_eq!(found, [read.to_string()], "{category}");
+        assert!(found[0].contains(&format!("input \"{name}\": {name} is ")), "{}", found[0]);
     }
 }

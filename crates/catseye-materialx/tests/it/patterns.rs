@@ -114,6 +114,18 @@ fn nodes_compute_what_they_are_named_for() {
         ("switch", &[("in1", c, "1, 0, 0"), ("in2", c, "0, 1, 0"), ("which", f, "1")], [0.0, 1.0, 0.0]),
         ("range", &[("in", c, "@uuu"), ("inhigh", f, "0.5"), ("gamma", f, "2")], [0.5_f32.sqrt(); 3]),
         ("screen", &[("fg", c, "@uuu"), ("bg", c, "0.5, 0.5, 0.5")], [0.625; 3]),
+        // Decided by the background.
+        ("overlay", &[("fg", c, "@uuu"), ("bg", c, "0.5, 0.75, 0.25")], [0.25, 0.625, 0.125]),
+        // 0 where there is no quotient, whatever the share.
+        ("burn", &[("fg", c, "0, 0.5, 1"), ("bg", c, "0.5, 0.5, 0.5"), ("mix", f, "0.5")], [0.0, 0.25, 0.5]),
+        ("dodge", &[("fg", c, "1, 0.5, 0"), ("bg", c, "0.2, 0.2, 0.2"), ("mix", f, "0.5")], [0.0, 0.3, 0.2]),
+        // The first colour on odd cells.
+        (
+            "checkerboard",
+            &[("color1", c, "1, 0, 0"), ("color2", c, "0, 1, 0"), ("uvtiling", "vector2", "4, 4")],
+            [1.0, 0.0, 0.0],
+        ),
+        ("switch", &[("in1", c, "1, 0, 0"), ("in2", c, "0, 1, 0"), ("which", f, "-1")], [1.0, 0.0, 0.0]),
     ];
     for (category, inputs, expected) in cases {
         assert_near(color(&one(category, inputs)), *expected, category);
@@ -133,6 +145,51 @@ fn vectors_turn_and_combine() {
         <separate3 name="parts" type="multioutput"><input name="in" type="vector3" nodename="n" /></separate3>
         <crossproduct name="n" type="vector3"><input name="in1" type="vector3" value="0, 0, 1" /><input name="in2" type="vector3" value="1, 0, 0" /></crossproduct>"#;
     assert_near(color(nodes), [0.6, 1.0, 1.0], "combine3");
+}
+
+/// What a node's float or vector3 is, each with a name: defaults, and what differs by type.
+#[test]
+fn values_of_other_types() {
+    let cases = [
+        // 1 - 2 (n . i) n with n = z is i itself.
+        ("vector3", r#"<reflect name="q" type="vector3" />"#, [1.0, 0.0, 0.0]),
+        ("vector3", r#"<transformnormal name="q" type="vector3" />"#, [0.0, 0.0, 1.0]),
+        // A vector without a direction is none of a map's: the surface's own.
+        (
+            "vector3",
+            r#"<normalmap name="q" type="vector3"><input name="in" type="vector3" value="0, 0, 0" /></normalmap>"#,
+            [0.0, 0.0, 1.0],
+        ),
+        (
+            "vector3",
+            r#"<transformmatrix name="q" type="vector3"><input name="in" type="vector3" value="0.1, 0.2, 0.3" />
+            <input name="mat" type="matrix44" value="1,0,0,0, 0,1,0,0, 0,0,1,0, 0.5,0.25,0.125,1" /></transformmatrix>"#,
+            [0.6, 0.45, 0.425],
+        ),
+        // The comparison itself.
+        ("boolean", r#"<ifgreater name="q" type="boolean" />"#, [1.0; 3]),
+        // A float is scaled by 4096 before it is hashed: cell 1024.
+        (
+            "float",
+            r#"<absval name="q" type="float"><input name="in" type="float" nodename="d" /></absval>
+            <subtract name="d" type="float"><input name="in1" type="float" nodename="r" /><input name="in2" type="float" nodename="c" /></subtract>
+            <randomfloat name="r" type="float"><input name="in" type="float" value="0.25" /><input name="seed" type="integer" value="3" /></randomfloat>
+            <cellnoise2d name="c" type="float"><input name="texcoord" type="vector2" value="1024, 3" /></cellnoise2d>"#,
+            [0.0; 3],
+        ),
+        (
+            "float",
+            r#"<extract name="q" type="float"><input name="in" type="vector4" nodename="four" /><input name="index" type="integer" value="3" /></extract>
+            <convert name="four" type="vector4"><input name="in" type="vector2" value="0.5, 0.5" /></convert>"#,
+            [1.0; 3],
+        ),
+    ];
+    for (ty, nodes, expected) in cases {
+        let convert = format!(
+            r#"<convert name="p" type="color3"><input name="in" type="{ty}" nodename="q" /></convert>{nodes}"#
+        );
+        assert_near(color(&convert), expected, nodes);
+    }
 }
 
 #[test]
