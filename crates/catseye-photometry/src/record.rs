@@ -25,14 +25,16 @@ pub(crate) struct Columns([Option<usize>; MEANINGFUL.len()]);
 impl Columns {
     /// Finds the columns; a text says what is wrong with the header.
     pub(crate) fn new(header: &[String], need: Need) -> Result<Self, String> {
-        let doubled = |i: usize| !header[i].is_empty() && header[..i].contains(&header[i]);
+        let same = |a: &str, b: &str| a.eq_ignore_ascii_case(b);
+        let doubled =
+            |i: usize| !header[i].is_empty() && header[..i].iter().any(|name| same(name, &header[i]));
         if let Some(i) = (0..header.len()).find(|&i| doubled(i)) {
             return Err(format!("column {} appears twice", shown(&header[i])));
         }
-        let columns = Self(MEANINGFUL.map(|name| header.iter().position(|field| field == name)));
+        let columns = Self(MEANINGFUL.map(|name| header.iter().position(|field| same(field, name))));
         let needed: &[&str] = match need {
             Need::Geometry => &[OBSERVATION, ENTRANCE],
-            Need::Values => &[OBSERVATION, ENTRANCE, VALUE, UNIT],
+            Need::Values => &[OBSERVATION, ENTRANCE, VALUE],
         };
         let missing: Vec<&str> = needed.iter().copied().filter(|name| columns.of(name).is_none()).collect();
         match missing.len() {

@@ -5,7 +5,7 @@
 //! | `observation_deg` | observation angle alpha, in `[0, 180)`; needed, and above 0 where there is a value |
 //! | `entrance_deg` | entrance angle component `beta_1`, in `(-90, 90)`; `beta_2` is 0; needed |
 //! | `rotation_deg` | rotation angle epsilon, in `[-360, 360]`; 0 where missing or empty |
-//! | `value`, `unit` | needed by a fit; the unit is cd/lx/m2 where the column is missing or the cell empty |
+//! | `value`, `unit` | the value is needed by a fit; the unit is the quantity's, cd/lx/m2 where neither is given |
 //! | `quantity` | `R_A`, `R_L`, ...; where missing or empty what the unit is of |
 //! | `limit` | `minimum`, `maximum` or `typical`; where missing or empty what the standard's name says |
 //! | `standard`, `class`, `colour`, `source` | what the value is of, and who says so |
@@ -232,7 +232,7 @@ impl Table {
     /// has an added one's name is replaced.
     #[must_use]
     pub fn to_csv(&self, added: &[(&str, Vec<String>)]) -> String {
-        let is_kept = |name: &str| added.iter().all(|(other, _)| *other != name);
+        let is_kept = |name: &str| added.iter().all(|(other, _)| !other.eq_ignore_ascii_case(name));
         let kept: Vec<usize> = (0..self.header.len()).filter(|&i| is_kept(&self.header[i])).collect();
         let names = kept.iter().map(|&i| self.header[i].as_str());
         let header: Vec<&str> = names.chain(added.iter().map(|(name, _)| *name)).collect();

@@ -63,7 +63,7 @@ fn bad_tables_are_refused_with_their_place() {
         ("\n \n", "t.csv: is empty; a header line and rows are needed"),
         (head, "t.csv: has a header, but no rows"),
         ("value,unit\n1,1\n", "t.csv: missing columns observation_deg, entrance_deg"),
-        ("observation_deg,entrance_deg,value\n0.2,5,1\n", "t.csv: missing column unit"),
+        ("observation_deg,entrance_deg,unit\n0.2,5,1\n", "t.csv: missing column value"),
         ("value,entrance_deg,value\n", "t.csv: column \"value\" appears twice"),
         // A row.
         ("H\n0.2,5,1\n", "t.csv:2: 3 fields, but the header has 4"),
