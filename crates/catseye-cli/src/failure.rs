@@ -22,9 +22,21 @@ pub(crate) fn exit_code(result: anyhow::Result<()>) -> ExitCode {
     if is_broken_pipe(&error) {
         return ExitCode::SUCCESS;
     }
-    // A message of several lines would hide the place that it names.
-    eprintln!("catseye: {}", format!("{error:#}").replace('\n', " "));
+    eprintln!("catseye: {}", line(&error));
     if error.is::<Usage>() { ExitCode::from(2) } else { ExitCode::FAILURE }
+}
+
+/// The error and its causes on one line, which several would hide the place in. A cause that the error before it has
+/// named already is left out.
+fn line(error: &anyhow::Error) -> String {
+    let mut text = String::new();
+    for cause in error.chain().map(ToString::to_string) {
+        if !text.contains(&cause) {
+            let colon = if text.is_empty() { "" } else { ": " };
+            text = format!("{text}{colon}{cause}");
+        }
+    }
+    text.replace('\n', " ")
 }
 
 /// Whether the reader of our output has gone, `catseye ... | head` for instance: it has all it wanted.
@@ -32,4 +44,19 @@ fn is_broken_pipe(error: &anyhow::Error) -> bool {
     error.chain().any(|cause| {
         cause.downcast_ref::<io::Error>().is_some_and(|error| error.kind() == io::ErrorKind::BrokenPipe)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::line;
+
+    #[test]
+    fn a_cause_is_named_once() {
+        let full = || anyhow::anyhow!("no space left");
+        assert_eq!(line(&full().context("x.png: no space left")), "x.png: no space left");
+        assert_eq!(
+            line(&full().context("x.png: can't be written")),
+            "x.png: can't be written: no space left"
+        );
+    }
 }

@@ -9,7 +9,7 @@ Example:
 /// Example of `catseye furnace`.
 pub(crate) const FURNACE: &str = "\
 Example:
-  $ catseye furnace --roughness-v 0.3 --spp 4 -o furnace.png";
+  $ catseye furnace --roughness 0.1 0.3 0.3,0.1 --spp 4 -o furnace.png";
 
 /// Example of `catseye eval`.
 pub(crate) const EVAL: &str = "\
@@ -74,12 +74,12 @@ Table format:
     rotation_deg      of the sample about its normal, in [-360, 360] [default: 0]
     quantity          R_A, R_L, R_I, R_Phi, R_T, Q_d, Y or f [default: by the unit]
     unit              cd/lx/m2, mcd/lx/m2, cd/fc/ft2, cd/lx, mcd/lx, cd/fc, 1/sr,
-                      1 or % [default: cd/lx/m2]
+                      1 or % [default: the quantity's, or cd/lx/m2]
     value             needed where values are compared
     limit             minimum, maximum or typical
     standard, class, colour, source
   - Other columns are carried through; one named model is replaced.
-  - An empty cell is a missing one. A bad row is an error that names line and
+  - Capitals in the header don't matter. An empty cell is a missing one. A bad row is an error that names line and
     column; nothing is printed then.";
 
 /// Example of `catseye openmaterial`.
@@ -91,6 +91,16 @@ Example:
 pub(crate) fn measure() -> String {
     format!("{VALUES}\n\n{MEASURE}")
 }
+
+/// Example of `catseye completions`.
+pub(crate) const COMPLETIONS: &str = "\
+Example:
+  $ catseye completions bash > catseye.bash";
+
+/// Example of `catseye man`.
+pub(crate) const MAN: &str = "\
+Example:
+  $ catseye man plot lobe > catseye-plot-lobe.1";
 
 /// Example of `catseye plot`.
 pub(crate) const PLOT: &str = "\
@@ -107,7 +117,7 @@ Example:
 /// Example of `catseye plot albedo`.
 pub(crate) const PLOT_ALBEDO: &str = "\
 Example:
-  $ catseye plot albedo --roughness 0.1,0.5,1,inf -o albedo.svg
+  $ catseye plot albedo --roughness 0.1 0.5 1 inf -o albedo.svg
   wrote albedo.svg (960 x 640)";
 
 /// Examples of `catseye fit`.
@@ -128,7 +138,7 @@ Example:
 pub(crate) const MATERIALX: &str = "\
 Example:
   $ catseye materialx export libraries
-  wrote libraries/catseye (15 files)";
+  wrote libraries/catseye";
 
 /// Example of `catseye materialx export`.
 pub(crate) const MATERIALX_EXPORT: &str = MATERIALX;
@@ -149,11 +159,11 @@ Table format:
     wo_x, wo_y, wo_z                 direction towards the viewer
     wi_x, wi_y, wi_z                 direction towards the light (eval)
     u1, u2, u3                       uniform numbers in [0, 1) (sample)
-  - Directions are unit vectors (within 0.001) that point away from the
-    surface; z is the shading normal, x the tangent.
-  - An empty cell is a missing one.
+  - Directions are unit vectors (within 0.001; their length is made 1) that point
+    away from the surface; z is the shading normal, x the tangent.
+  - Capitals in the header don't matter. An empty cell is a missing one.
   - Other columns are carried through; one that has the name of an added
-    column is replaced.
+    column is replaced. A warning names those that look like an input's.
   - Numbers are printed with the digits that give the same value back.
   - A bad row is an error that names line and column; nothing is printed then.";
 

@@ -4,6 +4,7 @@ mod cli;
 mod failure;
 mod help;
 mod instrument;
+mod interrupt;
 mod options;
 mod output;
 mod plot;
@@ -14,8 +15,8 @@ mod verbs;
 
 use std::process::ExitCode;
 
-use clap::Parser as _;
-
 fn main() -> ExitCode {
-    failure::exit_code(cli::Cli::parse().run())
+    let cli = cli::Cli::from_command_line();
+    interrupt::install();
+    failure::exit_code(cli.run())
 }

@@ -1,11 +1,14 @@
 //! The options that several verbs share: lobe models, precision, and the material with its libraries.
 
 use std::path::{Path, PathBuf};
+use std::str::FromStr;
 use std::sync::Arc;
 
 use catseye::Model;
 use catseye_materialx::{Document, Library, Material, SearchPath};
 use clap::ValueEnum;
+
+use crate::report;
 
 /// The lobe's model, by the names of [`Model::name`].
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -25,6 +28,20 @@ impl ValueEnum for ModelArg {
             }
         };
         Some(clap::builder::PossibleValue::new(self.0.name()).help(help))
+    }
+}
+
+/// A value of `--roughness`: along the tangent and across it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Roughness(pub(crate) [f64; 2]);
+
+impl FromStr for Roughness {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let (u, v) = text.split_once(',').unwrap_or((text, text));
+        let number = |text: &str| text.trim().parse().map_err(|_| "write it like 0.3, or 0.3,0.1".to_owned());
+        Ok(Self([number(u)?, number(v)?]))
     }
 }
 
@@ -73,7 +90,7 @@ impl LibraryArgs {
         let document = Document::load_with(document, &self.load()?)?;
         let material = document.material(name)?;
         for warning in document.warnings().iter().chain(&material.warnings) {
-            eprintln!("catseye: warning: {warning}");
+            report::warn(warning);
         }
         Ok(material)
     }

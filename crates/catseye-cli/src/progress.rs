@@ -5,6 +5,8 @@ use std::time::{Duration, Instant};
 
 use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
 
+use crate::report;
+
 /// Work shorter than this shows nothing.
 const QUIET: Duration = Duration::from_secs(1);
 
@@ -28,9 +30,20 @@ impl Progress {
         Self { bar, started: Instant::now(), shown: OnceLock::new() }
     }
 
+    /// Work whose length nobody knows: a line with the time that it has taken.
+    pub(crate) fn unknown(what: &'static str) -> Self {
+        let bar = if report::is_quiet() { ProgressBar::hidden() } else { ProgressBar::new_spinner() };
+        if let Ok(style) = ProgressStyle::with_template("{spinner} {prefix} {elapsed}") {
+            bar.set_style(style);
+        }
+        bar.set_prefix(what);
+        bar.enable_steady_tick(QUIET / 4);
+        Self { bar, started: Instant::now(), shown: OnceLock::from(()) }
+    }
+
     /// Reports how many steps are done.
     pub(crate) fn set(&self, done: u64) {
-        if self.started.elapsed() >= QUIET {
+        if self.started.elapsed() >= QUIET && !report::is_quiet() {
             // Standard error draws nothing where it is no terminal.
             self.shown.get_or_init(|| self.bar.set_draw_target(ProgressDrawTarget::stderr()));
         }

@@ -3,21 +3,40 @@
 use std::f64::consts::FRAC_PI_2;
 
 use anyhow::anyhow;
+use catseye::Model;
+use catseye_materialx::{Material, ShadingPoint};
 use catseye_photometry::{Geometry, Quantity, diffuse_luminance_coefficient, fractional_retro_reflectance};
 use catseye_render::Specimen;
 
 use super::{Channel, area_needed};
+use crate::report;
 
 /// A material on a goniometer: source and receiver are points, far away.
 #[derive(Debug)]
 pub(crate) struct Photometer {
-    pub(crate) specimen: Specimen,
-    pub(crate) channel: Channel,
+    specimen: Specimen,
+    channel: Channel,
     /// Area of a whole reflector in square metres, without which there is no `R_I`.
-    pub(crate) area: Option<f64>,
+    area: Option<f64>,
 }
 
 impl Photometer {
+    /// Mounts a specimen, and warns where another piece of the material would read differently.
+    pub(crate) fn new(
+        material: &Material,
+        model: Model,
+        channel: Channel,
+        area: Option<f64>,
+    ) -> anyhow::Result<Self> {
+        if varies_over_the_surface(material) {
+            report::warn(format!(
+                "the material {:?} varies over the surface: it is measured at the texture coordinates 0, 0",
+                material.name
+            ));
+        }
+        Ok(Self { specimen: Specimen::new(material, model)?, channel, area })
+    }
+
     /// The BSDF in 1/sr.
     pub(crate) fn brdf(&self, geometry: &Geometry) -> anyhow::Result<f64> {
         Ok(self.channel.of(self.specimen.eval(geometry.wo, geometry.wi)?))
@@ -43,4 +62,18 @@ impl Photometer {
         };
         value.filter(|value| value.is_finite()).ok_or_else(|| anyhow!("{quantity} is not a finite number"))
     }
+}
+
+/// Whether some other places, each seen head on, are unlike the origin.
+fn varies_over_the_surface(material: &Material) -> bool {
+    /// Places that are looked at; their coordinates are multiples of the golden and the silver ratio.
+    const PLACES: u16 = 64;
+    let Some(patterns) = &material.patterns else { return false };
+    let origin = patterns.at(&ShadingPoint::default());
+    (1..=PLACES).any(|i| {
+        let [u, v] = [0.618_034, 0.414_214].map(|step| (f32::from(i) * step).fract());
+        let (texcoord, position) = ([u, v], [u, v, 0.0]);
+        let point = ShadingPoint { texcoord, position, position_object: position, ..ShadingPoint::default() };
+        patterns.at(&point) != origin
+    })
 }

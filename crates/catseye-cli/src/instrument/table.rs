@@ -3,9 +3,9 @@
 use std::io::{self, Read as _};
 use std::path::Path;
 
-use anyhow::Context as _;
+use anyhow::{Context as _, anyhow};
 use catseye_photometry::standards::{Catalogue, StandardClass};
-use catseye_photometry::{Row, Table};
+use catseye_photometry::{Error, Row, Table};
 
 /// Bytes after which a table on standard input is too large for the library, which says so.
 const LARGEST: u64 = 1 << 25;
@@ -32,11 +32,11 @@ fn read_stdin() -> anyhow::Result<Vec<u8>> {
     Ok(bytes)
 }
 
-/// Whether a name is that of a file: a path that exists, ends in `.csv` or is `-`.
+/// Whether a name is that of a table: a file or pipe that exists, a name that ends in `.csv`, or `-`.
 pub(crate) fn is_table(name: &str) -> bool {
     let path = Path::new(name);
     let is_csv = path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("csv"));
-    name == "-" || is_csv || path.is_file()
+    name == "-" || is_csv || (path.exists() && !path.is_dir())
 }
 
 /// The classes that a name means, or the one that a file is.
@@ -45,7 +45,33 @@ pub(crate) fn classes(name: &str) -> anyhow::Result<Vec<StandardClass>> {
         let table = read(Path::new(name))?;
         return Ok(StandardClass::from_table(table).into_iter().collect());
     }
-    Ok(Catalogue::embedded()?.matching(name)?.into_iter().cloned().collect())
+    let catalogue = Catalogue::embedded()?;
+    let found = catalogue.matching(name).map_err(|error| unknown(name, error))?;
+    Ok(found.into_iter().cloned().collect())
+}
+
+/// The one class that a name means, or that a file is.
+pub(crate) fn class(name: &str) -> anyhow::Result<StandardClass> {
+    let mut classes = classes(name)?;
+    if classes.len() == 1 {
+        return Ok(classes.remove(0));
+    }
+    // The error lists the candidates.
+    let catalogue = Catalogue::embedded()?;
+    Ok(catalogue.find(name).map_err(|error| unknown(name, error))?.clone())
+}
+
+/// What is said of a name that is no class of a standard: one that looks like a path was meant as a file.
+fn unknown(name: &str, error: Error) -> anyhow::Error {
+    if Path::new(name).is_dir() {
+        return anyhow!("{name}: is a folder; a table or a class of a standard is needed");
+    }
+    if name.contains(['/', '\\', '.']) {
+        return anyhow!(
+            "{name}: no such file, and no class of a standard, which `catseye standards list` lists"
+        );
+    }
+    anyhow!("{error}; `catseye standards list` lists all of them")
 }
 
 /// Several classes as one table.

@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 use catseye::{Model, ParamError, Params, Vec3};
 use plotters::prelude::{DrawingBackend, RGBColor};
 
-use super::axes::{Axes, unbounded};
+use super::axes::{Axes, roughness_label};
 use super::canvas::{Canvas, GRID, INK, Lettering, MUTED};
 use super::curves::{LABEL_STEP, shade, spread};
 use super::figure::Figure;
@@ -26,23 +26,24 @@ pub(crate) struct AlbedoFigure {
 
 #[derive(Debug)]
 struct Curve {
-    roughness: f64,
+    roughness: [f64; 2],
     color: RGBColor,
     /// Angle of incidence in degrees, albedo.
     values: Vec<(f64, f64)>,
 }
 
 impl AlbedoFigure {
-    /// Computes the curves.
-    pub(crate) fn new(model: Model, roughnesses: Option<&[f64]>) -> anyhow::Result<Self> {
-        let roughnesses = roughnesses.unwrap_or(&ROUGHNESSES);
+    /// Computes the curves, over angles in the plane of the tangent; without roughnesses those of a range.
+    pub(crate) fn new(model: Model, roughnesses: &[[f64; 2]]) -> anyhow::Result<Self> {
+        let all = ROUGHNESSES.map(|roughness| [roughness; 2]);
+        let roughnesses = if roughnesses.is_empty() { &all } else { roughnesses };
         let mut curves = Vec::new();
         for (i, &roughness) in roughnesses.iter().enumerate() {
             let value = |step: u32| {
                 // The horizon itself belongs to neither side.
                 let theta = (f64::from(step) / f64::from(STEPS) * FRAC_PI_2).min(FRAC_PI_2 - 1e-6);
-                let albedo =
-                    model.exact_albedo(&Params::isotropic(roughness), Vec3::from_angles(theta, 0.0))?;
+                let params = Params::anisotropic(roughness[0], roughness[1]);
+                let albedo = model.exact_albedo(&params, Vec3::from_angles(theta, 0.0))?;
                 Ok((theta.to_degrees(), albedo[0]))
             };
             let share = i as f64 / (roughnesses.len().max(2) - 1) as f64;
@@ -64,10 +65,10 @@ impl Figure for AlbedoFigure {
     {
         let title = format!("Share of the light that single scattering sends back: {}", self.model.name());
         let subtitle = match self.model {
-            Model::Reciprocal => "multiscatter_tint 0, tint 1, equal roughness in both directions",
-            Model::Edwards => "tint 1, equal roughness in both directions",
+            Model::Reciprocal => "multiscatter_tint 0, tint 1; light in the plane of the tangent",
+            Model::Edwards => "tint 1; light in the plane of the tangent",
             Model::BackVector => {
-                "tint 1, equal roughness in both directions; GGX alpha of the same peak at 0°"
+                "tint 1; light in the plane of the tangent; GGX alpha of the same peak at 0°"
             }
         };
         canvas.text(&title, (24.0, 32.0), Lettering::left(22.0, INK))?;
@@ -103,7 +104,7 @@ impl AlbedoFigure {
         canvas.text("roughness", (right + 34.0, frame.origin.1 - 22.0), Lettering::left(15.0, INK))?;
         for ((curve, end), y) in ends.into_iter().zip(heights) {
             canvas.line(&[end, (right + 28.0, y)], GRID, 1.0)?;
-            let label = unbounded(curve.roughness);
+            let label = roughness_label(curve.roughness);
             canvas.text(&label, (right + 34.0, y), Lettering::left(15.0, curve.color))?;
         }
         Ok(())

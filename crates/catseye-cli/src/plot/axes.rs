@@ -83,6 +83,11 @@ pub(crate) fn unbounded(value: f64) -> String {
     if value.is_infinite() { "\u{221e}".to_owned() } else { value.to_string() }
 }
 
+/// A roughness along the tangent, and across it where that is another one.
+pub(crate) fn roughness_label([u, v]: [f64; 2]) -> String {
+    if u == v { unbounded(u) } else { format!("{}, {}", unbounded(u), unbounded(v)) }
+}
+
 /// Multiples of 1, 2 or 5 times a power of ten up to `greatest`, about `count` of them, without 0.
 pub(crate) fn ticks(greatest: f64, count: f64) -> Vec<f64> {
     let power = 10.0_f64.powf((greatest / count).log10().floor());

@@ -67,3 +67,12 @@ pub(crate) fn spread(positions: &[f64], step: f64, least: f64) -> Vec<f64> {
     let mean = down.iter().zip(up.iter().rev()).map(|(a, b)| 0.5 * (a + b));
     mean.enumerate().map(|(i, position)| position.max(least + step * i as f64)).collect()
 }
+
+/// What is said of a lobe that has no curve.
+pub(crate) fn without_width(roughness: &str, model: Model) -> String {
+    format!(
+        "roughness {roughness} is a perfect retro-reflector in the model {}: it sends all light back in one direction \
+         and has no curve",
+        model.name()
+    )
+}

@@ -1,18 +1,16 @@
 //! Pictures made of lines and text: SVG, or PNG with every edge smoothed.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Once;
 
-use anyhow::{anyhow, bail};
+use anyhow::anyhow;
 use catseye_render::encode_png_rgb;
 use plotters::prelude::{BitMapBackend, DrawingBackend, IntoDrawingArea as _, SVGBackend};
 use plotters::style::{FontStyle, WHITE, register_font};
 use serde_json::json;
 
 use super::canvas::Canvas;
-use crate::failure::Usage;
-use crate::output::Output;
-use crate::report;
+use crate::output::{self, Output};
 
 /// Bitmaps are drawn at this scale and then averaged: the backend's own wide lines have hard edges.
 const SUPERSAMPLE: u32 = 4;
@@ -34,39 +32,41 @@ pub(crate) trait Figure {
 }
 
 /// The file formats that a figure can be written in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, clap::ValueEnum)]
 enum Format {
+    /// Vector graphics
     Svg,
+    /// Pixels
     Png,
 }
 
-impl Format {
-    /// The format of a file name, by its ending.
-    fn of(path: &Path) -> anyhow::Result<Self> {
-        let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        match ending.as_str() {
-            "svg" => Ok(Self::Svg),
-            "png" => Ok(Self::Png),
-            _ => bail!(Usage(format!("{}: the name must end in .svg or .png", path.display()))),
-        }
-    }
+/// Where a figure goes.
+#[derive(Debug, clap::Args)]
+pub(crate) struct FigureArgs {
+    /// File to write, .svg or .png; `-` is standard output [default: what is plotted, with .svg]
+    #[arg(short, long, value_name = "FILE")]
+    output: Option<PathBuf>,
+    /// Format of the file [default: by its name's ending; SVG on standard output]
+    #[arg(long, value_enum)]
+    format: Option<Format>,
+    /// Print what was written as JSON
+    #[arg(long)]
+    json: bool,
 }
 
-/// Writes the picture and says so.
-pub(crate) fn finish(figure: &impl Figure, path: &Path, json: bool) -> anyhow::Result<()> {
-    save(figure, path)?;
-    let (width, height) = figure.size();
-    let facts = json!({ "output": path.display().to_string(), "width": width, "height": height });
-    report::print(json, &facts, &format!("wrote {} ({width} x {height})", path.display()))
-}
-
-/// Draws the figure into a file.
-fn save(figure: &impl Figure, path: &Path) -> anyhow::Result<()> {
-    let format = Format::of(path)?;
-    let output = Output::new(path)?;
-    match format {
-        Format::Svg => output.write(svg(figure)?.as_bytes()),
-        Format::Png => output.write(&png(figure.size(), &pixels(figure)?)?),
+impl FigureArgs {
+    /// Writes the figure and says so; `name` is the file where none was asked for.
+    pub(crate) fn write(&self, figure: &impl Figure, name: &str) -> anyhow::Result<()> {
+        let path = self.output.as_deref().unwrap_or(Path::new(name));
+        let format = output::format(path, self.format)?;
+        let output = Output::new(path)?;
+        output.write(&match format {
+            Format::Svg => svg(figure)?.into_bytes(),
+            Format::Png => png(figure.size(), &pixels(figure)?)?,
+        })?;
+        let (width, height) = figure.size();
+        let facts = json!({ "output": output.name(), "width": width, "height": height });
+        output.messages().note(self.json, &facts, &format!("wrote {} ({width} x {height})", output.name()))
     }
 }
 

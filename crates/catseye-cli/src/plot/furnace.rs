@@ -3,6 +3,7 @@
 use catseye::Model;
 use plotters::prelude::DrawingBackend;
 
+use super::axes::roughness_label;
 use super::canvas::{Canvas, GRID, INK, Lettering, MUTED, Point};
 use super::figure::{self, Figure};
 
@@ -38,7 +39,7 @@ impl Scattering {
 /// One sphere.
 #[derive(Debug)]
 pub(crate) struct Tile {
-    pub(crate) roughness: f64,
+    pub(crate) roughness: [f64; 2],
     pub(crate) measured: f64,
     pub(crate) expected: f64,
     /// Rows of RGB bytes.
@@ -49,7 +50,6 @@ pub(crate) struct Tile {
 #[derive(Debug)]
 pub(crate) struct FurnaceFigure {
     pub(crate) model: Model,
-    pub(crate) roughness_v: Option<f64>,
     /// Side of a tile in pixels.
     pub(crate) side: usize,
     /// Tiles in a row.
@@ -80,9 +80,7 @@ impl FurnaceFigure {
     }
 
     fn title(&self) -> String {
-        let across =
-            self.roughness_v.map_or(String::new(), |v| format!(", roughness across the tangent {v}"));
-        format!("White furnace: {} lobe{across}", self.model.name())
+        format!("White furnace: {} lobe", self.model.name())
     }
 }
 
@@ -131,7 +129,11 @@ impl FurnaceFigure {
         let side = self.side as f64;
         let (right, bottom, middle) = (left + side, top + side, left + side / 2.0);
         if is_first {
-            canvas.text(&tile.roughness.to_string(), (middle, top - 20.0), Lettering::center(15.0, INK))?;
+            canvas.text(
+                &roughness_label(tile.roughness),
+                (middle, top - 20.0),
+                Lettering::center(15.0, INK),
+            )?;
         }
         let frame = [(left, top), (right, top), (right, bottom), (left, bottom)];
         let around =

@@ -6,9 +6,9 @@ use anyhow::bail;
 use catseye::{AnyLobe, DIRAC_ROUGHNESS, Lobe as _, Model, ParamError, Params, Vec3, width};
 use plotters::prelude::DrawingBackend;
 
-use super::axes::{Axes as Frame, ticks, unbounded};
+use super::axes::{Axes as Frame, roughness_label, ticks, unbounded};
 use super::canvas::{Canvas, INK, Lettering, MUTED};
-use super::curves::{Curve, Panel, style};
+use super::curves::{Curve, Panel, style, without_width};
 use super::figure::Figure;
 use super::polar;
 
@@ -91,10 +91,8 @@ impl LobeFigure {
         let params = Params::anisotropic(request.roughness[0], request.roughness[1]);
         let lobes = request.models.iter().map(|&model| Ok((model, AnyLobe::new(model, &params)?)));
         let lobes = lobes.collect::<Result<Vec<_>, ParamError>>()?;
-        if lobes.iter().any(|(_, lobe)| lobe.is_dirac()) {
-            bail!(
-                "roughness 0 is a perfect retro-reflector, a lobe without width: there is no curve to plot"
-            );
+        if let Some((model, _)) = lobes.iter().find(|(_, lobe)| lobe.is_dirac()) {
+            bail!(without_width(&roughness_label(request.roughness), *model));
         }
         let panels: Vec<_> =
             request.theta_deg.iter().map(|&theta_deg| panel(&request, &lobes, theta_deg)).collect();

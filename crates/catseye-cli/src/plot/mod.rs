@@ -3,7 +3,7 @@
 pub(crate) mod albedo;
 pub(crate) mod axes;
 mod canvas;
-mod curves;
+pub(crate) mod curves;
 pub(crate) mod figure;
 pub(crate) mod furnace;
 pub(crate) mod lobe;

@@ -1,83 +1,185 @@
 //! Where a table of queries comes from: a file, standard input, or the command line itself.
 
-use std::fs;
-use std::io::{self, IsTerminal as _, Read as _};
+use std::fs::File;
+use std::io::{self, Cursor, IsTerminal as _, Read};
 use std::path::Path;
 
-use anyhow::Context as _;
+use anyhow::{Context as _, bail};
 use catseye_photometry::line_of_record;
 
 use crate::failure::Usage;
 
-/// The text of a CSV table and what to call it in messages.
-#[derive(Debug)]
+/// Bytes that are read at a time, some hundred records.
+const BLOCK: usize = 1 << 14;
+/// Bytes of the longest record: more are no row of numbers, but an open quote or no text at all.
+const LONGEST: usize = 1 << 24;
+
+/// A CSV table that is read block by block, and what to call it in messages.
 pub(crate) struct Input {
     name: String,
-    text: Vec<u8>,
+    reader: Box<dyn Read + Send>,
     has_lines: bool,
+    /// Bytes of the whole table, where they are known.
+    pub(crate) length: Option<u64>,
+    /// What was read behind the last whole record, and where such records end in it.
+    rest: Vec<u8>,
+    ends: RecordEnds,
+    /// Ends of lines before `rest`.
+    lines: usize,
+}
+
+/// Whole records of a table.
+#[derive(Debug, Default)]
+pub(crate) struct Block {
+    pub(crate) text: Vec<u8>,
+    /// Ends of lines before them.
+    lines: usize,
 }
 
 impl Input {
-    /// Reads a file, or standard input where there is none.
-    pub(crate) fn read(file: Option<&Path>) -> anyhow::Result<Self> {
-        let (name, mut text) = match file {
-            Some(path) if path != Path::new("-") => {
-                let name = path.display().to_string();
-                let text = fs::read(path).with_context(|| format!("{name}: can't be read"))?;
-                (name, text)
+    /// A file, or standard input where there is none or its name is `-`.
+    pub(crate) fn open(file: Option<&Path>) -> anyhow::Result<Self> {
+        let Some(path) = file.filter(|path| *path != Path::new("-")) else {
+            if io::stdin().is_terminal() {
+                let hint = "no input: give a CSV file, pipe one in, or use options such as --roughness and --wo (see --help)";
+                bail!(Usage(hint.to_owned()));
             }
-            _ => ("<stdin>".to_owned(), read_stdin()?),
+            return Ok(Self::new("<stdin>".to_owned(), Box::new(io::stdin()), None));
         };
-        if text.starts_with(b"\xef\xbb\xbf") {
-            text.drain(..3);
-        }
-        Ok(Self { name, text, has_lines: true })
+        let name = path.display().to_string();
+        let file = File::open(path).with_context(|| format!("{name}: can't be read"))?;
+        let length = file.metadata().ok().filter(std::fs::Metadata::is_file).map(|meta| meta.len());
+        Ok(Self::new(name, Box::new(file), length))
     }
 
     /// A table of one row that was given as options.
     pub(crate) fn from_options(header: &str, row: &str) -> Self {
-        Self {
-            name: "command line".to_owned(),
-            text: format!("{header}\n{row}\n").into_bytes(),
-            has_lines: false,
+        let text = format!("{header}\n{row}\n").into_bytes();
+        Self { has_lines: false, ..Self::new("command line".to_owned(), Box::new(Cursor::new(text)), None) }
+    }
+
+    fn new(name: String, reader: Box<dyn Read + Send>, length: Option<u64>) -> Self {
+        let (rest, ends) = (Vec::new(), RecordEnds::default());
+        Self { name, reader, has_lines: true, length, rest, ends, lines: 0 }
+    }
+
+    /// Reads the next whole records; none are left where the block stays empty.
+    pub(crate) fn fill(&mut self, block: &mut Block) -> anyhow::Result<()> {
+        let Block { text, lines } = block;
+        text.clear();
+        text.append(&mut self.rest);
+        *lines = self.lines;
+        while self.ends.last == 0 {
+            let read = self.reader.by_ref().take(BLOCK as u64).read_to_end(text);
+            if read.with_context(|| format!("{}: can't be read", self.name))? == 0 {
+                self.ends.last = text.len();
+                break;
+            }
+            if text.len() > LONGEST {
+                bail!("{}: a record is longer than 16 MiB: is a quote left open?", self.place(block, 0));
+            }
+            self.ends.see(text);
         }
+        self.rest.extend_from_slice(&text[self.ends.last..]);
+        text.truncate(self.ends.last);
+        self.ends = RecordEnds::default();
+        self.ends.see(&self.rest);
+        self.lines += text.iter().filter(|b| **b == b'\n').count();
+        Ok(())
     }
 
-    /// The table as CSV.
-    pub(crate) fn text(&self) -> &[u8] {
-        &self.text
-    }
-
-    /// The place of the record that was read from the byte offset `byte` on: `FILE:LINE`.
-    pub(crate) fn place(&self, byte: u64) -> String {
+    /// The place of the record that was read from a byte of a block on: `FILE:LINE`.
+    pub(crate) fn place(&self, block: &Block, byte: u64) -> String {
         if self.has_lines {
-            format!("{}:{}", self.name, line_of_record(&self.text, byte))
+            format!("{}:{}", self.name, block.lines + line_of_record(&block.text, byte))
         } else {
             self.name.clone()
         }
     }
 }
 
-fn read_stdin() -> anyhow::Result<Vec<u8>> {
-    let mut stdin = io::stdin().lock();
-    if stdin.is_terminal() {
-        let hint = "no input: give a CSV file, pipe one in, or use options such as --roughness and --wo (see --help)";
-        return Err(Usage(hint.to_owned()).into());
+/// Finds the end of the last whole record in a text that comes piece by piece.
+#[derive(Debug, Default)]
+struct RecordEnds {
+    field: Field,
+    /// How far the text was seen.
+    seen: usize,
+    /// Behind the last whole record; 0 where there is none.
+    last: usize,
+}
+
+/// Where in a field a byte is.
+#[derive(Clone, Copy, Debug, Default)]
+enum Field {
+    #[default]
+    Start,
+    Plain,
+    Quoted,
+    /// Behind a quote that ends the field, or is the first of a doubled one.
+    Closed,
+}
+
+impl RecordEnds {
+    fn see(&mut self, text: &[u8]) {
+        for (i, &byte) in text.iter().enumerate().skip(self.seen) {
+            self.field = match (self.field, byte) {
+                (Field::Start | Field::Closed, b'"') => Field::Quoted,
+                (Field::Quoted, b'"') => Field::Closed,
+                (Field::Quoted, _) => Field::Quoted,
+                (_, b'\n') => {
+                    self.last = i + 1;
+                    Field::Start
+                }
+                (_, b',') => Field::Start,
+                _ => Field::Plain,
+            };
+        }
+        self.seen = text.len();
     }
-    let mut text = Vec::new();
-    stdin.read_to_end(&mut text).context("<stdin>: can't be read")?;
-    Ok(text)
 }
 
 #[cfg(test)]
 mod tests {
-    use super::Input;
+    use super::*;
+
+    /// The blocks of a table, and their first lines.
+    fn blocks(text: &[u8]) -> Vec<(Vec<u8>, String)> {
+        let mut input = Input::new("t".to_owned(), Box::new(Cursor::new(text.to_vec())), None);
+        let mut all = Vec::new();
+        loop {
+            let mut block = Block::default();
+            input.fill(&mut block).unwrap();
+            if block.text.is_empty() {
+                return all;
+            }
+            let place = input.place(&block, 0);
+            all.push((block.text, place));
+        }
+    }
 
     #[test]
-    fn lines_are_counted_through_crlf_and_empty_lines() {
-        let input = |text: &str| Input { name: "t".to_owned(), text: text.into(), has_lines: true };
-        assert_eq!(input("a\r\n1\r\n\r\n2\r\n").place(5), "t:4", "offset of the end of line after row 1");
-        assert_eq!(input("a\n1\n\n\n2\n").place(4), "t:5", "two empty lines are skipped");
-        assert_eq!(input("a\n1\n").place(0), "t:1", "the header is line 1");
+    fn blocks_are_whole_records_and_together_the_table() {
+        let row = "1,\"a \"\"quoted\"\",\nfield\",2\r\n";
+        let text = row.repeat(5000);
+        let blocks = blocks(text.as_bytes());
+        assert!(blocks.len() > 5, "{}", blocks.len());
+        let mut line = 1;
+        for (block, place) in &blocks {
+            assert!(block.starts_with(b"1,") && block.ends_with(b",2\r\n"), "a record is cut");
+            assert_eq!(*place, format!("t:{line}"));
+            line += 2 * block.len() / row.len();
+        }
+        assert_eq!(blocks.into_iter().flat_map(|(block, _)| block).collect::<Vec<u8>>(), text.as_bytes());
+    }
+
+    #[test]
+    fn an_open_quote_ends_at_the_limit() {
+        let mut text = b"a,b\n\"".to_vec();
+        text.resize(LONGEST + 2 * BLOCK, b'x');
+        let mut input = Input::new("t".to_owned(), Box::new(Cursor::new(text)), None);
+        let mut block = Block::default();
+        let errors: Vec<String> =
+            (0..3).filter_map(|_| input.fill(&mut block).err()).map(|e| e.to_string()).collect();
+        assert_eq!(errors[0], "t:2: a record is longer than 16 MiB: is a quote left open?");
     }
 }

@@ -1,7 +1,8 @@
 //! The columns of a CSV verb's output, as CSV and as JSON.
 
-use std::fmt::Write as _;
+use std::io::Write as _;
 
+use catseye::Model;
 use csv::ByteRecord;
 
 use super::row::{Cell, Columns, Row, RowError};
@@ -26,8 +27,9 @@ impl Layout {
         json: bool,
     ) -> anyhow::Result<Self> {
         let columns = Columns::new(&header, argument)?;
-        let replaced =
-            |field: &usize| added.iter().any(|name| name.as_bytes() == header[*field].trim_ascii());
+        let replaced = |field: &usize| {
+            added.iter().any(|name| header[*field].trim_ascii().eq_ignore_ascii_case(name.as_bytes()))
+        };
         let carried = (0..header.len()).filter(|field| !replaced(field)).collect();
         Ok(Self { columns, added, carried, json, header })
     }
@@ -42,6 +44,19 @@ impl Layout {
         Ok(Row { record, columns: &self.columns })
     }
 
+    /// What is ignored, and might not be meant to be.
+    pub(crate) fn warnings(&self, model: Model) -> Vec<String> {
+        let others = self.carried.iter().filter(|field| !self.columns.is_input(**field));
+        let typos = others.filter_map(|&field| {
+            let name = String::from_utf8_lossy(self.header[field].trim_ascii());
+            let meant = self.columns.like(&name)?;
+            Some(format!("column {name:?} has no meaning; did you mean {meant}?"))
+        });
+        let unused = (model != Model::Reciprocal && self.columns.has_multiscatter_tint())
+            .then(|| format!("the model {} has no compensation: multiscatter_tint is ignored", model.name()));
+        typos.chain(unused).collect()
+    }
+
     /// What comes before the first row.
     pub(crate) fn opening(&self) -> Vec<u8> {
         if self.json {
@@ -52,15 +67,9 @@ impl Layout {
         line
     }
 
-    /// Writes what comes after the last row.
-    pub(crate) fn close(&self, out: &mut Vec<u8>) {
-        if self.json {
-            // The last object's comma.
-            if out.last() == Some(&b',') {
-                out.pop();
-            }
-            out.extend_from_slice(b"\n]\n");
-        }
+    /// What comes after the last row.
+    pub(crate) fn closing(&self) -> &'static [u8] {
+        if self.json { b"\n]\n" } else { b"" }
     }
 
     /// Writes a row and its answers.
@@ -77,37 +86,37 @@ impl Layout {
             push_field(out, &record[field]);
             out.push(b',');
         }
-        let mut text = String::new();
         for cell in cells {
-            push_cell(&mut text, cell);
-            text.push(',');
+            push_cell(out, cell);
+            out.push(b',');
         }
-        text.pop();
-        out.extend_from_slice(text.as_bytes());
+        out.pop();
         out.push(b'\n');
     }
 
-    /// Inputs and answers as numbers, everything else as text; what JSON has no number for as text, too.
+    /// A comma and an object: inputs and answers as numbers, everything else as text; what JSON has no number for as
+    /// text, too.
     fn write_json(&self, out: &mut Vec<u8>, record: &ByteRecord, cells: &[Cell]) {
-        let mut text = String::from("\n{");
+        out.extend_from_slice(b",\n{");
         for &field in &self.carried {
             let value = String::from_utf8_lossy(&record[field]);
             let number = value.trim().parse::<f64>().ok().filter(|_| self.columns.is_input(field));
-            push_key(&mut text, &String::from_utf8_lossy(&self.header[field]));
+            push_text(out, &String::from_utf8_lossy(&self.header[field]));
+            out.push(b':');
             match number {
-                Some(number) => push_json(&mut text, Cell::F64(number)),
-                None => text.push_str(&json_text(&value)),
+                Some(number) => push_json(out, Cell::F64(number)),
+                None => push_text(out, &value),
             }
-            text.push(',');
+            out.push(b',');
         }
         for (name, &cell) in self.added.iter().zip(cells) {
-            push_key(&mut text, name);
-            push_json(&mut text, cell);
-            text.push(',');
+            push_text(out, name);
+            out.push(b':');
+            push_json(out, cell);
+            out.push(b',');
         }
-        text.pop();
-        text.push_str("},");
-        out.extend_from_slice(text.as_bytes());
+        out.pop();
+        out.push(b'}');
     }
 }
 
@@ -128,34 +137,29 @@ fn push_field(out: &mut Vec<u8>, field: &[u8]) {
 }
 
 /// The shortest digits that give the same value back.
-fn push_cell(text: &mut String, cell: Cell) {
-    // Writing to a string can't fail.
+fn push_cell(out: &mut Vec<u8>, cell: Cell) {
+    // Writing to a vector can't fail.
     match cell {
-        Cell::F64(x) => write!(text, "{x:?}").ok(),
-        Cell::F32(x) => write!(text, "{x:?}").ok(),
-        Cell::Word(word) => write!(text, "{word}").ok(),
+        Cell::F64(x) => write!(out, "{x:?}").ok(),
+        Cell::F32(x) => write!(out, "{x:?}").ok(),
+        Cell::Word(word) => write!(out, "{word}").ok(),
     };
 }
 
-fn push_json(text: &mut String, cell: Cell) {
+fn push_json(out: &mut Vec<u8>, cell: Cell) {
     let finite = match cell {
         Cell::F64(x) => x.is_finite(),
         Cell::F32(x) => x.is_finite(),
         Cell::Word(_) => false,
     };
     if finite {
-        return push_cell(text, cell);
+        return push_cell(out, cell);
     }
-    text.push('"');
-    push_cell(text, cell);
-    text.push('"');
+    out.push(b'"');
+    push_cell(out, cell);
+    out.push(b'"');
 }
 
-fn push_key(text: &mut String, name: &str) {
-    text.push_str(&json_text(name));
-    text.push(':');
-}
-
-fn json_text(text: &str) -> String {
-    serde_json::Value::from(text).to_string()
+fn push_text(out: &mut Vec<u8>, text: &str) {
+    out.extend_from_slice(serde_json::Value::from(text).to_string().as_bytes());
 }

@@ -1,39 +1,35 @@
 //! The CSV verbs: a table of queries in, the same table with the answers' columns out.
 
+mod batch;
 mod input;
 mod layout;
 pub(crate) mod point;
 pub(crate) mod row;
 
-use std::io::{self, Write as _};
 use std::path::PathBuf;
 
-use anyhow::anyhow;
-use catseye::{AnyLobe, Model, Params};
+use anyhow::{anyhow, bail};
+use catseye::{AnyLobe, Model};
 use csv::ByteRecord;
-use rayon::prelude::*;
 
+use self::batch::Batch;
 use self::input::Input;
 use self::layout::Layout;
 use self::row::{Cell, Row, RowError, Scalar};
 use crate::failure::Usage;
 use crate::options::{Backend, ModelArg, Precision};
-use crate::output::Output;
+use crate::output::{Draft, Output};
 use crate::progress::Progress;
-
-/// Rows read before they are answered in parallel.
-const BATCH: usize = 1 << 14;
-/// Rows that one thread answers at a time.
-const CHUNK: usize = 256;
+use crate::report;
 
 /// The options that the CSV verbs share.
 #[derive(Debug, clap::Args)]
 pub(crate) struct TableArgs {
     /// CSV file with a header line [default: standard input]
     file: Option<PathBuf>,
-    /// Write to this file instead of standard output; it appears whole or not at all
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    /// File to write, which appears whole or not at all; `-` is standard output
+    #[arg(short, long, value_name = "FILE", default_value = "-")]
+    output: PathBuf,
     /// Which lobe answers
     #[arg(long, value_enum, default_value_t)]
     model: ModelArg,
@@ -55,8 +51,13 @@ pub(crate) trait Query: Sync {
     /// The query's argument beside the parameters and `wo`.
     const ARGUMENT: Option<[&'static str; 3]>;
 
-    /// The values of the added columns.
-    fn answer<T: Scalar>(&self, lobe: &AnyLobe<T>, row: Row<'_>) -> Result<Vec<Cell>, RowError>;
+    /// Appends the values of the added columns.
+    fn answer<T: Scalar>(
+        &self,
+        lobe: &AnyLobe<T>,
+        row: Row<'_>,
+        cells: &mut Vec<Cell>,
+    ) -> Result<(), RowError>;
 }
 
 impl TableArgs {
@@ -75,84 +76,64 @@ impl TableArgs {
         if self.backend == Backend::Gpu {
             let hint =
                 "the gpu backend is not part of this version; leave --backend out to compute on the CPU";
-            return Err(Usage(hint.to_owned()).into());
+            bail!(Usage(hint.to_owned()));
         }
-        let input = table.map_or_else(|| Input::read(self.file.as_deref()), Ok)?;
-        let output = self.output.as_deref().map(Output::new).transpose()?;
-        let text = match self.precision {
-            Precision::F64 => self.answer_all::<f64, _>(query, &input),
-            Precision::F32 => self.answer_all::<f32, _>(query, &input),
+        let mut input = table.map_or_else(|| Input::open(self.file.as_deref()), Ok)?;
+        let output = Output::new(&self.output)?;
+        // A bad row in the end must leave nothing behind.
+        let mut draft = output.draft()?;
+        match self.precision {
+            Precision::F64 => self.answer_all::<f64, _>(query, &mut input, &mut draft),
+            Precision::F32 => self.answer_all::<f32, _>(query, &mut input, &mut draft),
         }?;
-        match output {
-            None => io::stdout().lock().write_all(&text)?,
-            Some(file) => file.write(&text)?,
-        }
-        Ok(())
+        draft.finish()
     }
 
-    /// The whole output: a bad row in the end must leave nothing behind.
-    fn answer_all<T: Scalar, Q: Query>(&self, query: &Q, input: &Input) -> anyhow::Result<Vec<u8>> {
-        let mut reader = csv::ReaderBuilder::new().flexible(true).from_reader(input.text());
-        let header = reader.byte_headers()?.clone();
-        if header.is_empty() {
-            return Err(anyhow!("{}: no header line", input.place(0)));
-        }
-        let layout = Layout::new(header, Q::ARGUMENT, Q::ADDED, self.json)
-            .map_err(|error| error.context(input.place(0)))?;
-        let progress = Progress::new("rows", input.text().len() as u64);
-        let mut out = layout.opening();
-        loop {
-            let batch = read_batch(&mut reader)?;
-            if batch.is_empty() {
-                break;
-            }
-            let done: Vec<_> =
-                batch.par_chunks(CHUNK).map(|rows| self.answer_chunk::<T, Q>(query, &layout, rows)).collect();
-            for chunk in done {
-                let text = chunk.map_err(|(byte, error)| anyhow!("{}: {error}", input.place(byte)))?;
-                out.extend_from_slice(&text);
-            }
-            progress.set(reader.position().byte());
-        }
-        layout.close(&mut out);
-        Ok(out)
-    }
-
-    /// The output's lines for some rows, or the byte offset of the first bad row.
-    fn answer_chunk<T: Scalar, Q: Query>(
+    fn answer_all<T: Scalar, Q: Query>(
         &self,
         query: &Q,
-        layout: &Layout,
-        rows: &[ByteRecord],
-    ) -> Result<Vec<u8>, (u64, RowError)> {
-        let mut lines = Vec::with_capacity(rows.len() * 256);
-        let mut known = None;
-        for record in rows {
-            let cells = layout
-                .row(record)
-                .and_then(|row| query.answer::<T>(&self.lobe(&mut known, row)?, row))
-                .map_err(|error| (record.position().map_or(0, csv::Position::byte), error))?;
-            layout.write(&mut lines, record, &cells);
+        input: &mut Input,
+        out: &mut Draft<'_>,
+    ) -> anyhow::Result<()> {
+        let (mut now, mut next) = (Batch::default(), Batch::default());
+        now.read(input)?;
+        let layout = self.layout::<Q>(input, &mut now)?;
+        let progress =
+            input.length.map_or_else(|| Progress::unknown("rows"), |all| Progress::new("rows", all));
+        out.put(&layout.opening())?;
+        let (mut bytes, mut is_first) = (0, true);
+        while !now.is_empty() {
+            // The next blocks are read while these are answered.
+            let ((), read) =
+                rayon::join(|| now.answer::<T, Q>(query, &layout, self.model.0), || next.read(input));
+            for answered in now.answers() {
+                let text = answered
+                    .map_err(|(block, byte, error)| anyhow!("{}: {error}", input.place(block, byte)))?;
+                // The objects of an array are parted by commas, which each begins with.
+                let skipped = usize::from(self.json && is_first && !text.is_empty());
+                out.put(&text[skipped..])?;
+                is_first &= text.is_empty();
+            }
+            read?;
+            bytes += now.bytes();
+            progress.set(bytes);
+            std::mem::swap(&mut now, &mut next);
         }
-        Ok(lines)
+        out.put(layout.closing())
     }
 
-    /// The row's lobe; the one of the row before where the parameters are the same.
-    fn lobe<T: Scalar>(
-        &self,
-        known: &mut Option<(Params<T>, AnyLobe<T>)>,
-        row: Row<'_>,
-    ) -> Result<AnyLobe<T>, RowError> {
-        let params = row.params()?;
-        if let Some((_, lobe)) = known.filter(|(before, _)| *before == params) {
-            return Ok(lobe);
+    /// The columns, by the first record, which is taken out of the first block.
+    fn layout<Q: Query>(&self, input: &Input, batch: &mut Batch) -> anyhow::Result<Layout> {
+        let mut header = ByteRecord::new();
+        let place = batch.take_header(input, &mut header)?;
+        if header.is_empty() {
+            bail!("{place}: no header line");
         }
-        let lobe = AnyLobe::new(self.model.0, &params).map_err(|error| Row::out_of_range(&error))?;
-        *known = Some((params, lobe));
-        Ok(lobe)
+        let layout = Layout::new(header, Q::ARGUMENT, Q::ADDED, self.json)
+            .map_err(|error| error.context(place.clone()))?;
+        for warning in layout.warnings(self.model.0) {
+            report::warn(format!("{place}: {warning}"));
+        }
+        Ok(layout)
     }
-}
-
-fn read_batch(reader: &mut csv::Reader<&[u8]>) -> anyhow::Result<Vec<ByteRecord>> {
-    Ok(reader.byte_records().take(BATCH).collect::<Result<_, _>>()?)
 }

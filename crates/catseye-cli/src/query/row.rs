@@ -6,8 +6,10 @@ use anyhow::bail;
 use catseye::{Params, Real, Vec3};
 use csv::ByteRecord;
 
-/// How far a direction's length may be from 1.
+/// How far a direction's length may be from 1; it is made 1.
 const UNIT_TOLERANCE: f64 = 1e-3;
+/// How far it may be for the direction to be taken as it is: what single precision leaves of a unit vector.
+const ROUNDING: f64 = 1e-6;
 
 /// The parameters' columns. Only `roughness_u` must be there.
 pub(crate) const PARAMS: [&str; 8] = [
@@ -99,11 +101,13 @@ impl Columns {
     /// Finds the columns of the parameters, of `wo`, and of the query's other argument, `WI` or `U`.
     pub(crate) fn new(header: &ByteRecord, third: Option<[&'static str; 3]>) -> anyhow::Result<Self> {
         for (i, name) in header.iter().enumerate() {
-            if header.iter().take(i).any(|earlier| earlier.trim_ascii() == name.trim_ascii()) {
+            let same = |earlier: &[u8]| earlier.trim_ascii().eq_ignore_ascii_case(name.trim_ascii());
+            if header.iter().take(i).any(same) {
                 bail!("column {} appears twice", text(name));
             }
         }
-        let position = |name: &str| header.iter().position(|field| field.trim_ascii() == name.as_bytes());
+        let is = |field: &[u8], name: &str| field.trim_ascii().eq_ignore_ascii_case(name.as_bytes());
+        let position = |name: &str| header.iter().position(|field| is(field, name));
         let needed = ["roughness_u"].into_iter().chain(WO).chain(third.into_iter().flatten());
         let missing: Vec<&str> = needed.filter(|name| position(name).is_none()).collect();
         if !missing.is_empty() {
@@ -112,6 +116,24 @@ impl Columns {
         }
         let all = |names: [&str; 3]| names.map(|name| position(name).unwrap_or_default());
         Ok(Self { params: PARAMS.map(position), wo: all(WO), third: third.map(|names| (names, all(names))) })
+    }
+
+    /// The optional input that is not there and has all but the same name as another column.
+    pub(crate) fn like(&self, column: &str) -> Option<&'static str> {
+        /// Letters that may be wrong, missing, too many or in the wrong order.
+        const TYPOS: usize = 2;
+        let column = column.to_ascii_lowercase();
+        if [WI, U].concat().contains(&column.as_str()) {
+            return None;
+        }
+        let absent = PARAMS.into_iter().zip(self.params).filter(|(_, field)| field.is_none());
+        let distances = absent.map(|(name, _)| (strsim::osa_distance(name, &column), name));
+        distances.min().filter(|(distance, _)| *distance <= TYPOS).map(|(_, name)| name)
+    }
+
+    /// Whether the compensation has a tint.
+    pub(crate) fn has_multiscatter_tint(&self) -> bool {
+        self.params[5..].iter().any(Option::is_some)
     }
 
     /// Whether a field is one of the query's inputs.
@@ -190,8 +212,12 @@ impl Row<'_> {
         }
         let w = Vec3::from(xyz);
         let length = w.dot(w).to_f64().sqrt();
-        if (length - 1.0).abs() <= UNIT_TOLERANCE {
+        if (length - 1.0).abs() <= ROUNDING {
             return Ok(w);
+        }
+        if (length - 1.0).abs() <= UNIT_TOLERANCE {
+            let scale = T::from_f64(1.0 / length);
+            return Ok(Vec3::new(w.x * scale, w.y * scale, w.z * scale));
         }
         let columns = names.join(", ");
         Err(RowError::row(format!("columns {columns}: the direction's length is {length}, it must be 1")))

@@ -37,11 +37,18 @@ impl Query for Albedo {
     const ADDED: &'static [&'static str] = &["albedo_r", "albedo_g", "albedo_b"];
     const ARGUMENT: Option<[&'static str; 3]> = None;
 
-    fn answer<T: Scalar>(&self, lobe: &AnyLobe<T>, row: Row<'_>) -> Result<Vec<Cell>, RowError> {
+    fn answer<T: Scalar>(
+        &self,
+        lobe: &AnyLobe<T>,
+        row: Row<'_>,
+        cells: &mut Vec<Cell>,
+    ) -> Result<(), RowError> {
         if self.precision == Precision::F32 {
-            return Ok(lobe.albedo(row.wo()?).map(T::cell).to_vec());
+            cells.extend(lobe.albedo(row.wo()?).map(T::cell));
+            return Ok(());
         }
         let exact = self.model.exact_albedo(&row.params()?, row.wo()?);
-        Ok(exact.map_err(|error| Row::out_of_range(&error))?.map(Cell::F64).to_vec())
+        cells.extend(exact.map_err(|error| Row::out_of_range(&error))?.map(Cell::F64));
+        Ok(())
     }
 }

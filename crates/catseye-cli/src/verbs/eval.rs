@@ -35,8 +35,14 @@ impl Query for Eval {
     const ADDED: &'static [&'static str] = &["f_r", "f_g", "f_b", "pdf"];
     const ARGUMENT: Option<[&'static str; 3]> = Some(WI);
 
-    fn answer<T: Scalar>(&self, lobe: &AnyLobe<T>, row: Row<'_>) -> Result<Vec<Cell>, RowError> {
+    fn answer<T: Scalar>(
+        &self,
+        lobe: &AnyLobe<T>,
+        row: Row<'_>,
+        cells: &mut Vec<Cell>,
+    ) -> Result<(), RowError> {
         let (f, pdf) = lobe.eval_pdf(row.wo()?, row.wi()?);
-        Ok(f.into_iter().chain([pdf]).map(T::cell).collect())
+        cells.extend(f.into_iter().chain([pdf]).map(T::cell));
+        Ok(())
     }
 }

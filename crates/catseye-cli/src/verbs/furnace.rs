@@ -10,11 +10,11 @@ use rayon::prelude::*;
 use serde_json::{Value, json};
 
 use crate::failure::Usage;
-use crate::options::ModelArg;
-use crate::output::Output;
+use crate::help;
+use crate::options::{ModelArg, Roughness};
+use crate::output::{Output, must_end_in};
 use crate::plot::furnace::{FurnaceFigure, Scattering, Tile};
 use crate::progress::Progress;
-use crate::{help, report};
 
 /// The proposal's columns.
 const ROUGHNESSES: [f64; 10] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9];
@@ -32,12 +32,12 @@ const TILE: usize = 116;
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::FURNACE)]
 pub(crate) struct Args {
-    /// Picture to write, .png
+    /// Picture to write, .png; `-` is standard output
     #[arg(short, long, value_name = "FILE", default_value = "furnace.png")]
     output: PathBuf,
-    /// Roughness across the tangent [default: as along it]
-    #[arg(long, value_name = "R")]
-    roughness_v: Option<f64>,
+    /// Roughness of each column, 1 to 10 of them [default: 0 0.1 0.2 ... 0.9]
+    #[arg(long, value_name = "U[,V]", num_args = 1..)]
+    roughness: Vec<Roughness>,
     /// Samples per pixel; each number takes 4096 times as many
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=4096))]
     spp: u32,
@@ -68,25 +68,24 @@ struct Cell {
 
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
-        if !self.output.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("png")) {
-            bail!(Usage(format!("{}: the name must end in .png", self.output.display())));
-        }
+        must_end_in(&self.output, "png")?;
         let output = Output::new(&self.output)?;
         let cells = self.measure()?;
         let figure = self.figure(&cells);
         output.write(&figure.png()?)?;
         let facts = json!({ "output": output.name(), "model": self.model.0.name(), "rows": rows(&cells) });
-        report::print(self.json, &facts, &format!("{}\nwrote {}", table(&cells), output.name()))
+        output.messages().print(self.json, &facts, &format!("{}\nwrote {}", table(&cells), output.name()))
     }
 
     fn measure(&self) -> anyhow::Result<Vec<Cell>> {
         // The other models have no compensation: their second row would be the first again.
         let rows =
             if self.model.0 == Model::Reciprocal { &Scattering::ALL[..] } else { &[Scattering::Single] };
-        let progress = Progress::new("spheres", (rows.len() * ROUGHNESSES.len()) as u64);
+        let roughnesses = self.roughnesses()?;
+        let progress = Progress::new("spheres", (rows.len() * roughnesses.len()) as u64);
         let mut cells = Vec::new();
         for &scattering in rows {
-            for roughness in ROUGHNESSES {
+            for &roughness in &roughnesses {
                 cells.push(self.cell(roughness, scattering)?);
                 progress.set(cells.len() as u64);
             }
@@ -94,10 +93,18 @@ impl Args {
         Ok(cells)
     }
 
-    fn cell(&self, roughness: f64, scattering: Scattering) -> anyhow::Result<Cell> {
+    /// The roughness of each column.
+    fn roughnesses(&self) -> anyhow::Result<Vec<[f64; 2]>> {
+        match self.roughness.len() {
+            0 => Ok(ROUGHNESSES.map(|roughness| [roughness; 2]).to_vec()),
+            1..=10 => Ok(self.roughness.iter().map(|roughness| roughness.0).collect()),
+            _ => bail!(Usage("--roughness takes 1 to 10 values here".to_owned())),
+        }
+    }
+
+    fn cell(&self, [u, v]: [f64; 2], scattering: Scattering) -> anyhow::Result<Cell> {
         let share = if scattering == Scattering::Multiple { 1.0 } else { 0.0 };
-        let params = Params::anisotropic(roughness, self.roughness_v.unwrap_or(roughness))
-            .with_multiscatter_tint([share; 3]);
+        let params = Params::anisotropic(u, v).with_multiscatter_tint([share; 3]);
         let model = self.model.0;
         let normal = Vec3::new(0.0, 0.0, 1.0);
         let samples = self.spp * SAMPLES;
@@ -119,16 +126,15 @@ impl Args {
 
     fn figure(&self, cells: &[Cell]) -> FurnaceFigure {
         let tile = |cell: &Cell| Tile {
-            roughness: cell.params.roughness_u,
+            roughness: cell.params.roughness(),
             measured: cell.sphere.measured,
             expected: cell.sphere.expected,
             rgb: cell.image.pixels().iter().flat_map(|pixel| pixel.map(encode_srgb)).collect(),
         };
         FurnaceFigure {
             model: self.model.0,
-            roughness_v: self.roughness_v,
             side: TILE,
-            columns: ROUGHNESSES.len(),
+            columns: cells.iter().filter(|cell| cell.scattering == Scattering::Single).count(),
             tiles: cells.iter().map(tile).collect(),
         }
     }

@@ -1,6 +1,5 @@
 //! `catseye measure`: a virtual retroreflectometer.
 
-use std::io::{self, Write as _};
 use std::path::PathBuf;
 
 use anyhow::{Context as _, bail};
@@ -8,7 +7,7 @@ use catseye_materialx::Material;
 use catseye_photometry::standards::{Catalogue, StandardClass};
 use catseye_photometry::verdict::{Verdict, verdicts};
 use catseye_photometry::{Row, Table};
-use catseye_render::{Estimate, Specimen};
+use catseye_render::Estimate;
 use serde_json::{Map, Value, json};
 
 use crate::failure::Usage;
@@ -17,6 +16,7 @@ use crate::instrument::retroreflectometer::{SAMPLES, Traced};
 use crate::instrument::{Channel, check_area, table};
 use crate::options::MaterialArgs;
 use crate::output::Output;
+use crate::progress::Progress;
 use crate::{help, report};
 
 /// The geometries that are measured where none are given: those of the standards for sheeting.
@@ -60,9 +60,9 @@ pub(crate) struct Args {
     /// Judge by the classes of this colour
     #[arg(long, value_name = "COLOUR", default_value = "white", conflicts_with = "standard")]
     colour: String,
-    /// Write to this file instead of standard output; it appears whole or not at all
-    #[arg(short, long, value_name = "FILE")]
-    output: Option<PathBuf>,
+    /// File to write, which appears whole or not at all; `-` is standard output
+    #[arg(short, long, value_name = "FILE", default_value = "-")]
+    output: PathBuf,
     /// Print a JSON array with one object per row or verdict
     #[arg(long)]
     json: bool,
@@ -71,19 +71,15 @@ pub(crate) struct Args {
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
         check_area(self.area_m2)?;
-        let output = self.output.as_deref().map(Output::new).transpose()?;
+        let output = Output::new(&self.output)?;
         let material = self.subject.load()?;
-        let specimen = Specimen::new(&material, self.subject.model())?;
-        let photometer = Photometer { specimen, channel: self.channel, area: self.area_m2 };
+        let photometer = Photometer::new(&material, self.subject.model(), self.channel, self.area_m2)?;
         let text = match self.verdict {
             true => self.judge(&photometer)?,
             false if self.instrument => self.trace(&material)?,
             false => self.measure(&photometer)?,
         };
-        match output {
-            None => Ok(io::stdout().lock().write_all(text.as_bytes())?),
-            Some(file) => file.write(text.as_bytes()),
-        }
+        output.write(text.as_bytes())
     }
 
     /// The rows with the column `model`.
@@ -109,8 +105,10 @@ impl Args {
         values: impl Fn(&Row) -> anyhow::Result<[f64; N]>,
     ) -> anyhow::Result<String> {
         let table = self.table()?;
+        let progress = Progress::new("rows", table.rows().len() as u64);
         let mut answers = Vec::new();
         for row in table.rows() {
+            progress.set(answers.len() as u64);
             let values = values(row).with_context(|| format!("{}:{}", table.name(), row.line))?;
             answers.push(values.map(|value| row.unit.of_si(value)));
         }
@@ -185,7 +183,8 @@ fn object<'a>(table: &Table, row: &Row, answer: impl Iterator<Item = (&'a str, f
     const NUMBERS: [&str; 4] = ["observation_deg", "entrance_deg", "rotation_deg", "value"];
     let mut object = Map::new();
     for (name, cell) in table.header().iter().zip(&row.cells) {
-        let number = cell.parse::<f64>().ok().filter(|_| NUMBERS.contains(&name.as_str()));
+        let number =
+            cell.parse::<f64>().ok().filter(|_| NUMBERS.iter().any(|other| name.eq_ignore_ascii_case(other)));
         object.insert(name.clone(), number.map_or_else(|| json!(cell), |number| json!(number)));
     }
     object.extend(answer.map(|(name, value)| (name.to_owned(), json!(value))));

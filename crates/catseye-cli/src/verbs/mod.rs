@@ -1,9 +1,11 @@
 //! One file for each verb.
 
 pub(crate) mod albedo;
+pub(crate) mod completions;
 pub(crate) mod eval;
 pub(crate) mod fit;
 pub(crate) mod furnace;
+pub(crate) mod man;
 pub(crate) mod materialx;
 pub(crate) mod measure;
 pub(crate) mod openmaterial;

@@ -8,15 +8,14 @@ use std::str::FromStr;
 use anyhow::bail;
 use catseye_photometry::openmaterial::{Assumption, Band, BrdfTable, Metadata, write_material};
 use catseye_photometry::{Geometry, Goniometer, Quantity};
-use catseye_render::Specimen;
 use serde_json::json;
 
 use crate::failure::Usage;
+use crate::help;
 use crate::instrument::Channel;
 use crate::instrument::goniometer::Photometer;
 use crate::options::MaterialArgs;
 use crate::output::Output;
-use crate::{help, report};
 
 /// Write a material as ASAM `OpenMATERIAL` 3D: its coefficient of retro-reflection, and a table of its BRDF
 ///
@@ -54,12 +53,15 @@ impl FromStr for Tint {
     type Err = String;
 
     fn from_str(text: &str) -> Result<Self, String> {
-        let parts = text.split_once('=').and_then(|(nm, factor)| {
-            Some(Band { wavelength_nm: nm.trim().parse().ok()?, tint: factor.trim().parse().ok()? })
-        });
-        parts
-            .map(Self)
-            .ok_or_else(|| "a wavelength in nanometres and a factor are needed: 905=0.3".to_owned())
+        let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+        let parts = text
+            .split_once('=')
+            .and_then(|(nm, factor)| Some(Band { wavelength_nm: number(nm)?, tint: number(factor)? }));
+        let band = parts.ok_or("a wavelength in nanometres and a factor are needed: 905=0.3")?;
+        if !(band.wavelength_nm > 0.0 && (0.0..=1.0).contains(&band.tint)) {
+            return Err("the wavelength must be above 0, the factor from 0 to 1".to_owned());
+        }
+        Ok(Self(band))
     }
 }
 
@@ -69,8 +71,7 @@ impl Args {
         let output = Output::new(&self.output)?;
         let table_output = Output::new(&table_path)?;
         let material = self.subject.load()?;
-        let specimen = Specimen::new(&material, self.subject.model())?;
-        let photometer = Photometer { specimen, channel: Channel::Luminance, area: None };
+        let photometer = Photometer::new(&material, self.subject.model(), Channel::Luminance, None)?;
 
         let Self { observation_deg, entrance_deg, .. } = *self;
         let angles = Goniometer::from_degrees(observation_deg, entrance_deg, 0.0, 0.0);
@@ -97,13 +98,16 @@ impl Args {
             "observation_deg": observation_deg,
             "entrance_deg": entrance_deg,
         });
+        let wavelengths = match self.tints.len() {
+            0 => "1 wavelength".to_owned(),
+            more => format!("{} wavelengths", more + 1),
+        };
         let text = format!(
-            "wrote {}: {r_a:.4} cd/lx/m2 at {at}\nwrote {}: {} wavelengths",
+            "wrote {}: {r_a:.4} cd/lx/m2 at {at}\nwrote {}: {wavelengths}",
             output.name(),
             table_output.name(),
-            self.tints.len() + 1
         );
-        report::print(self.json, &facts, &text)
+        output.messages().note(self.json, &facts, &text)
     }
 
     /// The table's file: beside the output, its name ending as the format demands.

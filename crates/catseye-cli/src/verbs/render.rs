@@ -12,10 +12,12 @@ use serde_json::json;
 
 use crate::failure::Usage;
 use crate::options::{LibraryArgs, ModelArg};
-use crate::output::Output;
+use crate::output::{self, Output};
 use crate::progress::Progress;
 use crate::{help, report};
 
+/// Columns and rows of the largest picture that is rendered.
+const LARGEST: usize = 16384;
 /// Steps of the progress bar.
 const STEPS: f32 = 1000.0;
 
@@ -35,9 +37,12 @@ pub(crate) struct Args {
     /// MaterialX document with the material to show
     #[arg(value_name = "MATERIAL.mtlx")]
     document: Option<PathBuf>,
-    /// Picture to write: .png, or .exr with linear radiance
+    /// Picture to write: .png, or .exr with linear radiance; `-` is standard output
     #[arg(short, long, value_name = "FILE", default_value = "catseye.png")]
     output: PathBuf,
+    /// Format of the picture [default: by the file's ending; PNG on standard output]
+    #[arg(long, value_enum)]
+    format: Option<Format>,
     /// Name of the surface material, where the document has several
     #[arg(long, value_name = "NAME", requires = "document")]
     material: Option<String>,
@@ -50,16 +55,16 @@ pub(crate) struct Args {
     #[arg(long, value_enum)]
     scene: Option<SceneArg>,
     /// Columns and rows of the picture
-    #[arg(long, value_name = "WxH", default_value = "960x540", value_parser = parse_size)]
+    #[arg(long, value_name = "WxH", default_value = "960x540", value_parser = parse_size, allow_hyphen_values = true)]
     size: (usize, usize),
-    /// Samples per pixel: four times as many halve the noise (a PNG takes multiples of four)
+    /// Samples per pixel: four times as many halve the noise (a PNG takes 1 to 3, or rounds up to a multiple of 4)
     #[arg(long, value_name = "N", default_value_t = RenderSettings::default().spp, value_parser = clap::value_parser!(u32).range(1..))]
     spp: u32,
     /// Another number gives other noise
     #[arg(long, value_name = "N", default_value_t = 0)]
     seed: u32,
-    /// Threads [default: one per core]; the picture does not depend on their number
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    /// Threads, 1 to 256 [default: one per core]; the picture does not depend on their number
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
     /// Which lobe reflects
     #[arg(long, value_enum, default_value_t)]
@@ -78,20 +83,23 @@ enum SceneArg {
     Preview,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// The picture's file format.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum Format {
+    /// 8 bits per channel, as shown on a screen
     Png,
+    /// Linear radiance
     Exr,
 }
 
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
         let started = Instant::now();
-        let format = self.format()?;
+        let format = output::format(&self.output, self.format)?;
         let output = Output::new(&self.output)?;
         let scene = self.load_scene()?;
         let oversampling = self.oversampling(format);
-        let settings = self.settings(oversampling);
+        let settings = self.settings(oversampling)?;
         let progress = Progress::new("rendering", STEPS as u64);
         let image = render(&scene, &settings, &|share| progress.set((share * STEPS) as u64))?;
         drop(progress);
@@ -100,16 +108,8 @@ impl Args {
             Format::Exr => encode_exr(&image, &PictureInfo::default()),
         };
         output.write(&bytes?)?;
-        self.report(&output.name(), started.elapsed().as_secs_f64())
-    }
-
-    fn format(&self) -> anyhow::Result<Format> {
-        let ending = self.output.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        match ending.as_str() {
-            "png" => Ok(Format::Png),
-            "exr" => Ok(Format::Exr),
-            _ => bail!(Usage(format!("{}: the name must end in .png or .exr", self.output.display()))),
-        }
+        let spp = settings.spp * (oversampling * oversampling) as u32;
+        self.report(&output, spp, started.elapsed().as_secs_f64())
     }
 
     fn load_scene(&self) -> anyhow::Result<Scene> {
@@ -151,7 +151,7 @@ impl Args {
         }
         let shown = materials.iter().flatten().flat_map(|material| material.warnings.clone());
         for warning in document.warnings().into_iter().chain(shown).collect::<BTreeSet<_>>() {
-            eprintln!("catseye: warning: {warning}");
+            report::warn(warning);
         }
         Ok(materials)
     }
@@ -162,25 +162,33 @@ impl Args {
         if format == Format::Png && self.spp >= 4 { 2 } else { 1 }
     }
 
-    fn settings(&self, oversampling: usize) -> RenderSettings {
+    fn settings(&self, oversampling: usize) -> anyhow::Result<RenderSettings> {
         let (width, height) = self.size;
-        RenderSettings {
+        let most = LARGEST / oversampling;
+        if width > most || height > most {
+            bail!(Usage(format!(
+                "--size {width}x{height}: a PNG of 4 samples per pixel or more, which is made from a picture of twice the \
+                 size, has at most {most} columns and rows; write an EXR, or take --spp 1 to 3"
+            )));
+        }
+        Ok(RenderSettings {
             width: width * oversampling,
             height: height * oversampling,
             spp: self.spp.div_ceil((oversampling * oversampling) as u32),
             seed: self.seed,
             threads: self.threads.map(usize::from),
             ..RenderSettings::default()
-        }
+        })
     }
 
-    fn report(&self, name: &str, seconds: f64) -> anyhow::Result<()> {
+    /// Says what was written; `spp` are the samples that a pixel got.
+    fn report(&self, output: &Output, spp: u32, seconds: f64) -> anyhow::Result<()> {
         let (width, height) = self.size;
-        let spp = self.spp;
+        let name = output.name();
         let facts =
             json!({ "output": name, "width": width, "height": height, "spp": spp, "seconds": seconds });
         let text = format!("wrote {name} ({width} x {height}, {spp} samples per pixel, {seconds:.1} s)");
-        report::print(self.json, &facts, &text)
+        output.messages().note(self.json, &facts, &text)
     }
 }
 
@@ -189,12 +197,15 @@ fn look(document: &Document, name: &str) -> anyhow::Result<Look> {
     let looks = document.looks()?;
     let names: Vec<String> = looks.iter().map(|look| look.name.clone()).collect();
     let found = looks.into_iter().find(|look| look.name == name);
-    found.with_context(|| format!("{}: no look {name:?}; its looks: {}", document.name(), names.join(", ")))
+    found.with_context(|| match &names[..] {
+        [] => format!("{}: no look {name:?}; it has no looks", document.name()),
+        names => format!("{}: no look {name:?}; its looks: {}", document.name(), names.join(", ")),
+    })
 }
 
 /// `WxH` as width and height.
 fn parse_size(text: &str) -> Result<(usize, usize), String> {
-    let parse = |number: &str| number.parse().ok().filter(|n| (1..=16384).contains(n));
+    let parse = |number: &str| number.parse().ok().filter(|n| (1..=LARGEST).contains(n));
     let size = text.split_once('x').and_then(|(width, height)| parse(width).zip(parse(height)));
-    size.ok_or_else(|| "write it like 960x540, each number from 1 to 16384".to_owned())
+    size.ok_or_else(|| format!("write it like 960x540, each number from 1 to {LARGEST}"))
 }

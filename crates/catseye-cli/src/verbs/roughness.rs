@@ -1,6 +1,7 @@
 //! `catseye roughness`: from the width and height of a measured peak to the node's inputs, and back.
 
 use anyhow::bail;
+use catseye::DIRAC_ROUGHNESS;
 use catseye_photometry::half_power::{
     half_power_angle, peak_coefficient, relative_coefficient, roughness_from_half_power_angle,
 };
@@ -48,9 +49,10 @@ impl Args {
             (None, None) => bail!(Usage("give --half-power-deg or --roughness".to_owned())),
         };
         let angle_deg = half_power_angle(roughness)?.to_degrees();
-        if angle_deg == 0.0 {
+        if roughness < DIRAC_ROUGHNESS {
             bail!(
-                "roughness 0 is a perfect retro-reflector: its R_A is infinite in one direction and 0 in all others"
+                "roughness {roughness} is a perfect retro-reflector (all are below {DIRAC_ROUGHNESS}): its R_A is infinite in \
+                 one direction and 0 in all others"
             );
         }
         let tint = self.tint(roughness)?;

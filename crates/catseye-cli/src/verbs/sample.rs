@@ -37,11 +37,19 @@ impl Query for Draw {
         &["wi_x", "wi_y", "wi_z", "weight_r", "weight_g", "weight_b", "pdf", "lobe"];
     const ARGUMENT: Option<[&'static str; 3]> = Some(U);
 
-    fn answer<T: Scalar>(&self, lobe: &AnyLobe<T>, row: Row<'_>) -> Result<Vec<Cell>, RowError> {
+    fn answer<T: Scalar>(
+        &self,
+        lobe: &AnyLobe<T>,
+        row: Row<'_>,
+        cells: &mut Vec<Cell>,
+    ) -> Result<(), RowError> {
         let Some(Sample { wi, weight, pdf, component }) = lobe.sample(row.wo()?, row.u()?) else {
-            return Ok([T::ZERO.cell(); 7].into_iter().chain([Cell::Word("none")]).collect());
+            cells.extend([T::ZERO.cell(); 7]);
+            cells.push(Cell::Word("none"));
+            return Ok(());
         };
-        let numbers = <[T; 3]>::from(wi).into_iter().chain(weight).chain([pdf]);
-        Ok(numbers.map(T::cell).chain([Cell::Word(component.name())]).collect())
+        cells.extend(<[T; 3]>::from(wi).into_iter().chain(weight).chain([pdf]).map(T::cell));
+        cells.push(Cell::Word(component.name()));
+        Ok(())
     }
 }

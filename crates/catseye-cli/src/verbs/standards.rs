@@ -1,7 +1,5 @@
 //! `catseye standards`: the values of standards and products that come with the command.
 
-use std::io::{self, Write as _};
-
 use catseye_photometry::Row;
 use catseye_photometry::standards::{Catalogue, StandardClass};
 use clap::Subcommand;
@@ -69,7 +67,7 @@ impl List {
             let facts: Vec<Value> = classes.iter().map(facts).collect();
             return report::print(true, &Value::from(facts), "");
         }
-        let mut out = io::stdout().lock();
+        let mut text = String::new();
         let width = classes.iter().map(|class| class.id().len()).max().unwrap_or_default();
         let mut heading = (String::new(), String::new());
         for class in &classes {
@@ -77,12 +75,12 @@ impl List {
             let own = (first.standard.clone(), first.source.clone());
             if own != heading {
                 let sources = sources(class).join("\n  ");
-                writeln!(out, "{}\n  {sources}", own.0)?;
+                text += &format!("{}\n  {sources}\n", own.0);
                 heading = own;
             }
-            writeln!(out, "  {:width$}  {}", class.id(), geometry(class))?;
+            text += &format!("  {:width$}  {}\n", class.id(), geometry(class));
         }
-        Ok(())
+        report::to_stdout(text.as_bytes())
     }
 }
 
@@ -95,7 +93,7 @@ impl Show {
                 classes.iter().flat_map(|class| class.rows().iter().map(row_facts)).collect();
             return report::print(true, &Value::from(rows), "");
         }
-        Ok(io::stdout().lock().write_all(table.to_csv(&[]).as_bytes())?)
+        report::to_stdout(table.to_csv(&[]).as_bytes())
     }
 }
 

@@ -27,10 +27,15 @@ fn assert_agreement(rows: &[Value], args: &str) {
 
 #[test]
 fn measured_agrees_with_expected() {
-    for args in ["", "--roughness-v 0.05", "--roughness-v inf", "--model edwards", "--model back-vector"] {
+    for (args, spheres) in [
+        ("", 20),
+        ("--roughness 0.1,0.05 0.5,0.05 0.9,0.05", 6),
+        ("--roughness 0,inf 0.3,inf", 4),
+        ("--model edwards", 10),
+        ("--model back-vector", 10),
+    ] {
         let rows = numbers(args);
-        let has_compensation = !args.starts_with("--model");
-        assert_eq!(rows.len(), if has_compensation { 20 } else { 10 }, "rows of ten spheres");
+        assert_eq!(rows.len(), spheres, "{args}: the models without compensation have one row");
         assert_agreement(&rows, args);
     }
 }

@@ -3,7 +3,7 @@
 use crate::run::{Bench, alike, output};
 
 /// Every verb, and every verb of a verb, as the command lists them itself.
-fn verbs() -> Vec<String> {
+pub(crate) fn verbs() -> Vec<String> {
     fn below(verb: &str) -> Vec<String> {
         let help = output(&format!("{verb} --help"), "");
         let Some((_, listed)) = help.split_once("Commands:\n") else { return vec![verb.to_owned()] };

@@ -47,5 +47,5 @@ fn a_folder_that_cannot_be_made_is_named() {
     bench.write("file", "");
     let outcome = bench.catseye("materialx export file", "");
     assert_eq!(outcome.code, 1);
-    assert!(outcome.stderr.contains("file/catseye"), "{}", outcome.stderr);
+    assert!(outcome.stderr.contains("file: the folder can't be made"), "{}", outcome.stderr);
 }

@@ -36,7 +36,7 @@ fn bad_wishes_for_open_material_leave_no_file() {
         ("-o out.json", "must end in .xomp"),
         ("-o out.xomp --tint 905", "905=0.3"),
         ("-o out.xomp --tint 905=0.1 --tint 905=0.2", "twice"),
-        ("-o out.xomp --tint 905=-1", "must be 0 or above"),
+        ("-o out.xomp --tint 905=-1", "from 0 to 1"),
         ("-o out.xomp --observation-deg 0", "must be above 0"),
         ("-o out.xomp --entrance-deg 95", "above the surface"),
     ] {

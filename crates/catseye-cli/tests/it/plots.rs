@@ -7,9 +7,11 @@ use crate::run::Bench;
 #[test]
 fn svg_and_png_by_the_name_s_ending() {
     let bench = Bench::new();
-    for args in
-        ["plot lobe --axes cartesian", "plot lobe -o a.png --theta 45", "plot albedo --roughness 1,inf"]
-    {
+    for args in [
+        "plot lobe --axes cartesian",
+        "plot lobe -o a.png --theta 45",
+        "plot albedo --roughness 1 inf 0.5,0.1",
+    ] {
         let outcome = bench.catseye(args, "");
         assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""), "{args}");
     }
@@ -35,8 +37,7 @@ fn every_roughness_can_be_plotted() {
         let albedo = Bench::new().catseye(&format!("plot albedo --roughness {roughness}"), "");
         assert_eq!((albedo.code, albedo.stderr.as_str()), (0, ""), "albedo of roughness {roughness}");
         let bench = Bench::new();
-        let outcome =
-            bench.catseye(&format!("plot lobe --roughness {roughness} --roughness-v 0.5 --theta 0,89"), "");
+        let outcome = bench.catseye(&format!("plot lobe --roughness {roughness},0.5 --theta 0,89"), "");
         assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""), "roughness {roughness}");
     }
 }

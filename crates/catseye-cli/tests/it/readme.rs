@@ -37,16 +37,14 @@ fn run(document: &str, share: f64) -> Vec<String> {
     let text = std::fs::read_to_string(root.join(document)).unwrap();
     let bench = Bench::new();
     symlink(root.join("materials"), bench.path("materials")).unwrap();
-    let ours: Vec<_> = steps(&text).into_iter().filter(|(commands, _)| commands.contains("catseye ")).collect();
-    assert!(ours.len() >= 4, "{document} shows {} examples", ours.len());
+    let ours: Vec<_> =
+        steps(&text).into_iter().filter(|(commands, _)| !commands.contains("cargo ")).collect();
+    assert!(!ours.is_empty(), "{document} has examples");
     for (commands, shown) in ours {
         let outcome = bench.shell(&commands.replace("target/release/catseye", "catseye"));
         assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""), "{document}: {commands}");
         let (shown, printed) = (timeless(shown), timeless(&outcome.stdout));
-        assert!(
-            shown.is_empty() || alike_within(&shown, &printed, share),
-            "{document}: {commands}{printed}"
-        );
+        assert!(shown.is_empty() || alike_within(&shown, &printed, share), "{document}: {commands}{printed}");
     }
     bench.files()
 }

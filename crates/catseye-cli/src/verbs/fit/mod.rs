@@ -18,9 +18,11 @@ use self::outcome::Outcome;
 use self::page::page;
 use self::subject::Subject;
 use crate::failure::Usage;
+use crate::help;
 use crate::instrument::check_area;
-use crate::output::Output;
-use crate::{help, report};
+use crate::output::{Output, must_end_in};
+use crate::progress::Progress;
+use crate::report::Stream;
 
 /// Percent by which a model of a measured BRDF may be off on average: what three lobes make of real tapes.
 const BRDF_TOLERANCE: f64 = 40.0;
@@ -30,8 +32,9 @@ const BRDF_RULE: usize = 7;
 /// Fit a material to coefficients of retro-reflection, of a CSV table or of a standard's class
 ///
 /// Finds a sum of retro-reflective lobes with entrance factors, and a diffuse base where a luminance factor is given, whose albedo
-/// is at most 1. The table has the columns `observation_deg`, `entrance_deg`, `value` and `unit`; `rotation_deg` (0),
-/// `quantity` (R_A), `standard`, `class`, `colour` and `source` are optional. `catseye standards list` names the classes that come with the program.
+/// is at most 1. The table has the columns `observation_deg`, `entrance_deg` and `value`; `unit` (cd/lx/m2), `quantity` (R_A),
+/// `rotation_deg` (0), `standard`, `class`, `colour` and `source` are optional. `catseye standards list` names the classes that
+/// come with the program.
 /// Without a wish, the simplest model whose worst value is within the tolerance is chosen. Exit code 1 if there is none; then
 /// no material is written.
 #[derive(Debug, clap::Args)]
@@ -40,7 +43,7 @@ pub(crate) struct Args {
     /// CSV file, STANDARD:CLASS:COLOUR, ALTA .dat or MERL .binary of a measured BRDF, or ASAM OpenMATERIAL .xomp
     #[arg(value_name = "TABLE|STANDARD")]
     subject: String,
-    /// Write the material to this .mtlx file
+    /// Write the material to this .mtlx file; `-` is standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
     /// Write a report to this .html file, whatever comes out
@@ -117,15 +120,38 @@ enum FitModel {
     BackVector,
 }
 
+/// What is fitted, how, and where the result goes.
+struct Job {
+    subject: Subject,
+    observations: Vec<Observation>,
+    options: FitOptions,
+    colour: Colour,
+    material: Option<Output>,
+    page: Option<Output>,
+}
+
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
+        let job = self.job()?;
+        let (found, beside) = job.fit()?;
+        let outcome = job.outcome(&found, beside.as_ref());
+        if let Some(file) = &job.page {
+            file.write(page(&outcome)?.as_bytes())?;
+        }
+        job.messages().print(self.json, &outcome.json(), &outcome.text())?;
+        if !found.acceptable {
+            bail!("{}: no acceptable fit; --tolerance would accept a worse one", job.subject.name);
+        }
+        match &job.material {
+            Some(file) => file.write(self.document(&outcome, job.colour).as_bytes()),
+            None => Ok(()),
+        }
+    }
+
+    fn job(&self) -> anyhow::Result<Job> {
+        let [material, page] = self.outputs()?;
         let options = self.options()?;
-        let cosine = match self.cosine {
-            None => Cosine::AsStated,
-            Some(true) => Cosine::Included,
-            Some(false) => Cosine::Excluded,
-        };
-        let mut subject = Subject::find(&self.subject, self.only.as_deref(), cosine)?;
+        let mut subject = Subject::find(&self.subject, self.only.as_deref(), self.cosine())?;
         if !self.at_least {
             subject.drop_minima_beside_values();
         }
@@ -139,35 +165,29 @@ impl Args {
             tolerance: 0.01 * self.tolerance.unwrap_or(if subject.is_brdf() { BRDF_TOLERANCE } else { 5.0 }),
             ..options
         };
-        let material = self.output.as_deref().map(Output::new).transpose()?;
-        let html = self.report.as_deref().map(Output::new).transpose()?;
-        let name = |error| match error {
-            // An option's fault, not the table's.
-            FitError::Option { .. } => anyhow::Error::from(error),
-            _ => anyhow::Error::from(error).context(subject.name.clone()),
-        };
-        let found = fit(&observations, &options).map_err(name)?;
-        let beside = (options.model != Model::BackVector).then(|| {
-            fit(&observations, &FitOptions { model: Model::BackVector, roughness: None, ..options })
-        });
-        let beside: Option<Fit> = beside.and_then(Result::ok);
-        let outcome = Outcome {
-            subject: &subject,
-            observations: &observations,
-            fit: &found,
-            beside: beside.as_ref(),
-            tolerance: options.tolerance,
-        };
-        if let Some(html) = &html {
-            html.write(page(&outcome)?.as_bytes())?;
+        Ok(Job { subject, observations, options, colour, material, page })
+    }
+
+    /// The material's file and the report's.
+    fn outputs(&self) -> anyhow::Result<[Option<Output>; 2]> {
+        let [material, page] = [&self.output, &self.report].map(Option::as_deref);
+        if let Some(path) = material {
+            must_end_in(path, "mtlx")?;
         }
-        report::print(self.json, &outcome.json(), &outcome.text())?;
-        if !found.acceptable {
-            bail!("{}: no acceptable fit; --tolerance would accept a worse one", subject.name);
+        if let Some(path) = page {
+            must_end_in(path, "html")?;
         }
-        match material {
-            Some(material) => material.write(self.document(&outcome, colour).as_bytes()),
-            None => Ok(()),
+        if material.is_some() && material == page {
+            bail!(Usage("--output and --report are the same file".to_owned()));
+        }
+        Ok([material.map(Output::new).transpose()?, page.map(Output::new).transpose()?])
+    }
+
+    fn cosine(&self) -> Cosine {
+        match self.cosine {
+            None => Cosine::AsStated,
+            Some(true) => Cosine::Included,
+            Some(false) => Cosine::Excluded,
         }
     }
 
@@ -227,9 +247,10 @@ impl Args {
     }
 
     fn document(&self, outcome: &Outcome<'_>, colour: Colour) -> String {
-        let stem = self.output.as_deref().and_then(Path::file_stem).map(|stem| stem.to_string_lossy());
-        let name = self.name.clone().or_else(|| stem.map(Into::into)).unwrap_or_default();
         let subject = outcome.subject;
+        let file = self.output.as_deref().filter(|path| *path != Path::new("-"));
+        let stem = file.and_then(Path::file_stem).map(|stem| stem.to_string_lossy().into_owned());
+        let name = self.name.clone().or(stem).unwrap_or_else(|| subject.name.clone());
         let title = &subject.title;
         let command = command_line(std::env::args().skip(1));
         let doc = format!("Fitted to {title} by catseye {command}: {}.", outcome.verdict());
@@ -241,15 +262,45 @@ impl Args {
     }
 }
 
+impl Job {
+    /// The fit, and for comparison that of the other model.
+    fn fit(&self) -> anyhow::Result<(Fit, Option<Fit>)> {
+        let _progress = Progress::unknown("fitting");
+        let found = fit(&self.observations, &self.options).map_err(|error| match error {
+            // An option's fault, not the table's.
+            FitError::Option { .. } => anyhow::Error::from(error),
+            _ => anyhow::Error::from(error).context(self.subject.name.clone()),
+        })?;
+        let other = FitOptions { model: Model::BackVector, roughness: None, ..self.options };
+        let is_other = self.options.model == Model::BackVector;
+        let beside = if is_other { None } else { fit(&self.observations, &other).ok() };
+        Ok((found, beside))
+    }
+
+    fn outcome<'a>(&'a self, fit: &'a Fit, beside: Option<&'a Fit>) -> Outcome<'a> {
+        let Self { subject, observations, .. } = self;
+        Outcome { subject, observations, fit, beside, tolerance: self.options.tolerance }
+    }
+
+    /// Where text goes: not between the lines of a file.
+    fn messages(&self) -> Stream {
+        let files = [&self.material, &self.page].into_iter().flatten();
+        files.map(Output::messages).find(|stream| *stream == Stream::Err).unwrap_or(Stream::Out)
+    }
+}
+
 /// The command as it was given, without what it was to write.
 fn command_line(words: impl Iterator<Item = String>) -> String {
     const FILES: [&str; 3] = ["-o", "--output", "--report"];
+    const SILENT: [&str; 3] = ["--json", "-q", "--quiet"];
     let mut kept = Vec::new();
     let mut words = words;
     while let Some(word) = words.next() {
         if FILES.contains(&word.as_str()) {
             words.next();
-        } else if word != "--json" && !FILES.iter().any(|file| word.starts_with(&format!("{file}="))) {
+        } else if !SILENT.contains(&word.as_str())
+            && !FILES.iter().any(|file| word.starts_with(&format!("{file}=")))
+        {
             let plain = word.chars().all(|c| c.is_ascii_alphanumeric() || "-_.:,/=+".contains(c));
             kept.push(if plain { word } else { format!("'{word}'") });
         }

@@ -6,7 +6,7 @@ use anyhow::{Context as _, anyhow, bail};
 use catseye_photometry::brdf::{Brdf, Cosine, Selection};
 use catseye_photometry::fit::{Aim, Observation};
 use catseye_photometry::openmaterial::{Assumption, OpenMaterial};
-use catseye_photometry::standards::{Catalogue, StandardClass};
+use catseye_photometry::standards::StandardClass;
 use catseye_photometry::{ApertureRule, Colour, Limit, Quantity, Row, Table};
 
 use crate::instrument::table;
@@ -39,8 +39,11 @@ impl Subject {
         match ending.as_str() {
             "xomp" => Self::of_open_material(path),
             "dat" | "alta" | "binary" => Self::of_brdf(path, cosine),
+            "mtlx" if path.is_file() => {
+                bail!("{name}: is a material; fit makes one from values, measure takes values from it")
+            }
             _ if table::is_table(name) => Self::of_table(&table::read(path)?, only),
-            _ => Self::of_table(Catalogue::embedded()?.find(name)?.table(), only),
+            _ => Self::of_table(table::class(name)?.table(), only),
         }
     }
 

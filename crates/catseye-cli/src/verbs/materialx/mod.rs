@@ -3,14 +3,17 @@
 mod check;
 
 use std::fs;
+use std::io;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use catseye_materialx::data_library::{FILES, NAME};
 use clap::Subcommand;
+use serde_json::json;
 
 use self::check::Check;
 use crate::help;
+use crate::report::Stream;
 
 /// Work with MaterialX: write the node's data library, check documents
 #[derive(Debug, clap::Args)]
@@ -36,6 +39,9 @@ struct Export {
     /// Folder to write the library's folder into; made where it is missing
     #[arg(value_name = "DIR")]
     folder: PathBuf,
+    /// Print what was written as JSON
+    #[arg(long)]
+    json: bool,
 }
 
 impl Args {
@@ -50,17 +56,34 @@ impl Args {
 impl Export {
     fn run(&self) -> anyhow::Result<()> {
         let library = self.folder.join(NAME);
+        make_folder(&self.folder)?;
+        // Everything is on the disk before the first file of the library itself is touched.
+        let staging = tempfile::Builder::new().prefix(".catseye-").tempdir_in(&self.folder);
+        let staging = staging.map_err(|error| io::Error::from(error.kind()));
+        let staging = staging.with_context(|| format!("{}: can't be written", self.folder.display()))?;
         for (path, text) in FILES {
-            write(&library.join(path), text)?;
+            make_folder(parent(&staging.path().join(path)))?;
+            fs::write(staging.path().join(path), text).with_context(|| unwritable(&library.join(path)))?;
         }
-        println!("wrote {} ({} files)", library.display(), FILES.len());
-        Ok(())
+        for (path, _) in FILES {
+            let file = library.join(path);
+            make_folder(parent(&file))?;
+            fs::rename(staging.path().join(path), &file).with_context(|| unwritable(&file))?;
+        }
+        let name = library.display().to_string();
+        let facts = json!({ "output": name, "files": FILES.len() });
+        Stream::Out.note(self.json, &facts, &format!("wrote {name}"))
     }
 }
 
-fn write(path: &Path, text: &str) -> anyhow::Result<()> {
-    if let Some(folder) = path.parent() {
-        fs::create_dir_all(folder).with_context(|| format!("can't make the folder {}", folder.display()))?;
-    }
-    fs::write(path, text).with_context(|| format!("can't write {}", path.display()))
+fn parent(path: &Path) -> &Path {
+    path.parent().unwrap_or(path)
+}
+
+fn make_folder(folder: &Path) -> anyhow::Result<()> {
+    fs::create_dir_all(folder).with_context(|| format!("{}: the folder can't be made", folder.display()))
+}
+
+fn unwritable(path: &Path) -> String {
+    format!("{}: can't be written", path.display())
 }

@@ -2,15 +2,13 @@
 
 mod ra;
 
-use std::path::PathBuf;
-
 use anyhow::bail;
 use clap::Subcommand;
 
 use crate::failure::Usage;
 use crate::help;
-use crate::options::ModelArg;
-use crate::plot::figure::finish;
+use crate::options::{ModelArg, Roughness};
+use crate::plot::figure::FigureArgs;
 use crate::plot::{albedo, lobe};
 
 /// Plot the lobes, their albedo or R_A, as SVG or PNG
@@ -45,17 +43,12 @@ impl Args {
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::PLOT_LOBE)]
 struct LobeArgs {
-    /// File to write, .svg or .png
-    #[arg(short, long, value_name = "FILE", default_value = "lobe.svg")]
-    output: PathBuf,
-    /// Roughness along the tangent, above 0
-    #[arg(long, value_name = "R", default_value_t = 0.3)]
-    roughness: f64,
-    /// Roughness across the tangent [default: as --roughness]
-    #[arg(long, value_name = "R")]
-    roughness_v: Option<f64>,
+    /// Roughness, above 0: along the tangent, or along it and across it
+    #[arg(long, value_name = "U[,V]", default_value = "0.3")]
+    roughness: Roughness,
     /// Angles of the incoming light from the normal, in degrees, 1 to 4 of them
     #[arg(long, value_name = "DEG,...", value_delimiter = ',', default_values_t = [0.0, 30.0, 60.0])]
+    #[arg(allow_hyphen_values = true)]
     theta: Vec<f64>,
     /// Angle of the plane of incidence from the tangent, in degrees
     #[arg(long, value_name = "DEG", default_value_t = 0.0, allow_negative_numbers = true)]
@@ -66,9 +59,8 @@ struct LobeArgs {
     /// Shape of the diagram [default: polar, for narrow lobes cartesian]
     #[arg(long, value_enum)]
     axes: Option<lobe::Axes>,
-    /// Print what was written as JSON
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    figure: FigureArgs,
 }
 
 impl LobeArgs {
@@ -80,13 +72,13 @@ impl LobeArgs {
             bail!(Usage("--phi must be finite".to_owned()));
         }
         let request = lobe::Request {
-            roughness: [self.roughness, self.roughness_v.unwrap_or(self.roughness)],
+            roughness: self.roughness.0,
             theta_deg: self.theta.clone(),
             phi_deg: self.phi,
             models: self.model.map_or_else(|| catseye::Model::ALL.to_vec(), |model| vec![model.0]),
             axes: self.axes,
         };
-        finish(&lobe::LobeFigure::new(request)?, &self.output, self.json)
+        self.figure.write(&lobe::LobeFigure::new(request)?, "lobe.svg")
     }
 }
 
@@ -94,25 +86,22 @@ impl LobeArgs {
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::PLOT_ALBEDO)]
 struct AlbedoArgs {
-    /// File to write, .svg or .png
-    #[arg(short, long, value_name = "FILE", default_value = "albedo.svg")]
-    output: PathBuf,
-    /// Roughnesses, 1 to 12 of them [default: a range of them]
-    #[arg(long, value_name = "R,...", value_delimiter = ',')]
-    roughness: Option<Vec<f64>>,
+    /// Roughness of each curve, 1 to 12 of them [default: from 0.05 to infinity]
+    #[arg(long, value_name = "U[,V]", num_args = 1..)]
+    roughness: Vec<Roughness>,
     /// Which lobe
     #[arg(long, value_enum, default_value_t)]
     model: ModelArg,
-    /// Print what was written as JSON
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    figure: FigureArgs,
 }
 
 impl AlbedoArgs {
     fn run(&self) -> anyhow::Result<()> {
-        if self.roughness.as_ref().is_some_and(|values| values.len() > 12) {
+        if self.roughness.len() > 12 {
             bail!(Usage("--roughness takes at most 12 values here".to_owned()));
         }
-        finish(&albedo::AlbedoFigure::new(self.model.0, self.roughness.as_deref())?, &self.output, self.json)
+        let roughnesses: Vec<[f64; 2]> = self.roughness.iter().map(|roughness| roughness.0).collect();
+        self.figure.write(&albedo::AlbedoFigure::new(self.model.0, &roughnesses)?, "albedo.svg")
     }
 }

@@ -3,10 +3,9 @@
 use std::path::PathBuf;
 
 use anyhow::bail;
-use catseye::{Lobe as _, Params, Reciprocal};
-use catseye_photometry::standards::{Catalogue, StandardClass};
+use catseye::{AnyLobe, Lobe as _, Params};
+use catseye_photometry::standards::StandardClass;
 use catseye_photometry::{Geometry, Quantity, Row};
-use catseye_render::Specimen;
 use clap::ArgGroup;
 
 use crate::failure::Usage;
@@ -14,9 +13,10 @@ use crate::help;
 use crate::instrument::Channel;
 use crate::instrument::goniometer::Photometer;
 use crate::instrument::table;
-use crate::options::{LibraryArgs, ModelArg};
-use crate::plot::axes::unbounded;
-use crate::plot::figure::finish;
+use crate::options::{LibraryArgs, ModelArg, Roughness};
+use crate::plot::axes::roughness_label;
+use crate::plot::curves::without_width;
+use crate::plot::figure::FigureArgs;
 use crate::plot::ra::{Point, RaFigure, Request};
 
 /// Curves of one diagram: more can't be told apart.
@@ -40,9 +40,9 @@ pub(crate) struct Args {
     /// MaterialX document with the material to plot
     #[arg(value_name = "MATERIAL.mtlx", group = "subject")]
     document: Option<PathBuf>,
-    /// Roughness of a lobe to plot instead, above 0
-    #[arg(long, value_name = "R", group = "subject")]
-    roughness: Option<f64>,
+    /// Roughness of a lobe to plot instead, above 0: along the tangent, or along it and across it
+    #[arg(long, value_name = "U[,V]", group = "subject")]
+    roughness: Option<Roughness>,
     /// Tint of that lobe, in [0, 1]
     #[arg(long, value_name = "TINT", default_value_t = 1.0, conflicts_with = "document")]
     tint: f64,
@@ -60,23 +60,19 @@ pub(crate) struct Args {
     material: Option<String>,
     #[command(flatten)]
     library: LibraryArgs,
-    /// Which lobe reflects in the material
+    /// Which lobe reflects
     #[arg(long, value_enum, default_value_t)]
     model: ModelArg,
     /// What is made of the three colour channels
     #[arg(long, value_enum, default_value_t)]
     channel: Channel,
-    /// File to write, .svg or .png
-    #[arg(short, long, value_name = "FILE", default_value = "ra.svg")]
-    output: PathBuf,
-    /// Print what was written as JSON
-    #[arg(long)]
-    json: bool,
+    #[command(flatten)]
+    figure: FigureArgs,
 }
 
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
-        let class = self.standard.as_deref().map(one_class).transpose()?;
+        let class = self.standard.as_deref().map(table::class).transpose()?;
         let points = class.as_ref().map(points).transpose()?.unwrap_or_default();
         let entrance_deg = self.entrances(&points)?;
         let last = points.iter().map(|point| point.observation_deg).fold(0.0, f64::max);
@@ -89,7 +85,7 @@ impl Args {
         let subtitle =
             class.map_or_else(String::new, |class| format!("with the values of {}", class.title()));
         let request = Request { title, subtitle, entrance_deg, end_deg, points };
-        finish(&RaFigure::new(request, r_a)?, &self.output, self.json)
+        self.figure.write(&RaFigure::new(request, r_a)?, "ra.svg")
     }
 
     /// What is plotted: its name, and its `R_A`.
@@ -99,22 +95,17 @@ impl Args {
         };
         if let Some(path) = &self.document {
             let material = self.library.material(path, self.material.as_deref())?;
-            let specimen = Specimen::new(&material, self.model.0)?;
-            let photometer = Photometer { specimen, channel: self.channel, area: None };
+            let photometer = Photometer::new(&material, self.model.0, self.channel, None)?;
             let title = format!("Coefficient of retro-reflection of {}", material.name);
             return Ok((title, Box::new(move |geometry| Ok(r_a(photometer.brdf(geometry)?, geometry)))));
         }
-        let (roughness, tint) = (self.roughness.unwrap_or_default(), self.tint);
-        let lobe = Reciprocal::<f64>::new(&Params::isotropic(roughness).with_tint([tint; 3]))?;
+        let Roughness([u, v]) = self.roughness.unwrap_or(Roughness([0.0; 2]));
+        let (label, tint, model) = (roughness_label([u, v]), self.tint, self.model.0);
+        let lobe = AnyLobe::<f64>::new(model, &Params::anisotropic(u, v).with_tint([tint; 3]))?;
         if lobe.is_dirac() {
-            bail!(
-                "roughness {roughness} is a perfect retro-reflector: its R_A is infinite in one direction and 0 in all others"
-            );
+            bail!(without_width(&label, model));
         }
-        let title = format!(
-            "Coefficient of retro-reflection of a lobe: roughness {}, tint {tint}",
-            unbounded(roughness)
-        );
+        let title = format!("Coefficient of retro-reflection of a lobe: roughness {label}, tint {tint}");
         Ok((title, Box::new(move |geometry| Ok(r_a(lobe.eval(geometry.wo, geometry.wi)[0], geometry)))))
     }
 
@@ -128,21 +119,17 @@ impl Args {
         angles.sort_by(f64::total_cmp);
         angles.dedup();
         let legal = |angle: &f64| angle.abs() < 90.0;
-        if !angles.iter().all(legal) || angles.len() > MOST_CURVES {
-            bail!(Usage(format!("--entrance takes 1 to {MOST_CURVES} angles, each in (-90, 90)")));
+        if angles.iter().all(legal) && angles.len() <= MOST_CURVES {
+            return Ok(angles);
         }
-        Ok(angles)
+        bail!(Usage(match (&self.entrance, &self.standard) {
+            (None, Some(name)) => format!(
+                "{name} has values at {} entrance angles; choose 1 to {MOST_CURVES} of them with --entrance",
+                angles.len()
+            ),
+            _ => format!("--entrance takes 1 to {MOST_CURVES} angles, each in (-90, 90)"),
+        }))
     }
-}
-
-/// One class by its name, or a table.
-fn one_class(name: &str) -> anyhow::Result<StandardClass> {
-    let mut classes = table::classes(name)?;
-    if classes.len() == 1 {
-        return Ok(classes.remove(0));
-    }
-    // The error lists the candidates.
-    Ok(Catalogue::embedded()?.find(name)?.clone())
 }
 
 /// The values as `R_A`.
