@@ -14,6 +14,7 @@ pub const NAME: &str = "catseye";
 pub const FILES: &[(&str, &str)] = &[
     file!("catseye_defs.mtlx"),
     file!("catseye_ng.mtlx"),
+    file!("catseye_translation.mtlx"),
     file!("genglsl/catseye_genglsl_impl.mtlx"),
     file!("genglsl/lib/mx_retro_reflective.glsl"),
     file!("genglsl/lib/mx_retro_reflective_albedo.glsl"),

@@ -103,6 +103,11 @@ fn every_document_generates_and_compiles() {
 }
 
 #[test]
+fn without_the_library_the_look_by_day_is_kept() {
+    run("test_fallback.py");
+}
+
+#[test]
 fn values_match_the_oracle() {
     run("test_values.py");
 }
@@ -124,6 +129,7 @@ fn what_is_missing_fails_where_everything_is_required() {
     };
     let files = [
         ("test_generate.py", "Generate.test_glsl_compiles"),
+        ("test_fallback.py", "Fallback.test_the_surface_is_translated"),
         ("test_values.py", "Values"),
         ("test_environment.py", "Environment"),
         ("test_pictures.py", "Pictures"),

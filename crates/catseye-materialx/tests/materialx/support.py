@@ -56,6 +56,27 @@ def data_library(path=None):
     return library
 
 
+def stock():
+    """MaterialX's definitions alone."""
+    library = mx.createDocument()
+    mx.loadLibraries(mx.getDefaultDataLibraryFolders(), mx.getDefaultDataSearchPath(), library)
+    return library
+
+
+def translate(document, model):
+    """Makes every surface shader one of this model, as MaterialX's `translateshader.py` does before it bakes."""
+    gen_shader.ShaderTranslator.create().translateAllMaterials(document, model)
+    return document
+
+
+def flatten(document, library):
+    """Replaces our nodes by the nodes of their graphs, down to those of the given library."""
+    for graph in [document, *document.getNodeGraphs()]:
+        graph.flattenSubgraphs("", lambda node: node.getCategory().startswith("retro_"))
+    document.setDataLibrary(library)
+    return document
+
+
 def installed():
     """The folder that holds the installed MaterialX's `libraries`."""
     return pathlib.Path(mx.getDefaultDataSearchPath().asString().split(os.pathsep)[0])
