@@ -54,7 +54,7 @@ impl Document {
     /// Reads a document from bytes; `name` stands for the file in messages. It has no folder: it can't name files.
     ///
     /// # Errors
-    /// The text is not UTF-8, or is refused by [`Document::parse`].
+    /// The bytes are no text in UTF-8, UTF-16 or a declared ISO-8859-1, or it is refused by [`Document::parse`].
     pub fn from_bytes(bytes: &[u8], name: &str) -> Result<Self, Error> {
         Self::of_root(parse_bytes(bytes, name, None)?)
     }

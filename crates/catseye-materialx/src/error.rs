@@ -50,11 +50,13 @@ pub enum Error {
         /// Most bytes that are read.
         limit: usize,
     },
-    /// The text is not UTF-8.
-    #[error("{at}: is not UTF-8 from here on; save the file as UTF-8")]
-    NotUtf8 {
+    /// The bytes are not text in the encoding that they seem to be in.
+    #[error("{at}: is not {encoding} from here on; save the file as UTF-8")]
+    Encoding {
         /// The first byte that is wrong.
         at: Place,
+        /// UTF-8 or UTF-16.
+        encoding: &'static str,
     },
     /// The text is not well-formed XML.
     #[error("{at}: malformed XML: {message}")]
@@ -87,12 +89,14 @@ pub enum Error {
         at: Place,
     },
     /// A document of a version whose rules are not known here.
-    #[error("{at}: version {version} is not supported; versions 1.38 and 1.39 are")]
+    #[error("{at}: version {version} is not supported; {instead}")]
     Version {
         /// The root element.
         at: Place,
         /// The version, quoted.
         version: String,
+        /// The way out.
+        instead: &'static str,
     },
     /// MaterialX, but a part of it that is not read here.
     #[error("{at}: {what} is not supported; {instead}")]
@@ -201,7 +205,7 @@ pub enum Error {
         cycle: String,
     },
     /// A file that a document names and that isn't there.
-    #[error("{at}: there is no file {name}; correct the name, or add its folder to the search path")]
+    #[error("{at}: there is no file {name}; correct the name, or add its folder with `--materialx-path`")]
     MissingFile {
         /// The element that names it.
         at: Place,
@@ -210,12 +214,23 @@ pub enum Error {
     },
     /// A file outside the folders that may be read.
     #[error(
-        "{at}: the file {name} is outside the document's folder; add its folder to the search path to allow it"
+        "{at}: the file {name} is outside the document's folder; `--materialx-path` or MATERIALX_SEARCH_PATH with a folder \
+         above it allows it"
     )]
     OutsideSearchPath {
         /// The element that names it.
         at: Place,
         /// The file's name, quoted.
+        name: String,
+    },
+    /// A name that stands for the tiles of a picture.
+    #[error(
+        "{at}: {name} names the tiles of a picture, which is not supported; name one of them, as in name.1001.png"
+    )]
+    Tiles {
+        /// The element that names them.
+        at: Place,
+        /// The name, quoted.
         name: String,
     },
     /// A picture that can't be read.
@@ -271,7 +286,7 @@ impl Error {
             | Self::NoMaterial { .. }
             | Self::NoSuchMaterial { .. }
             | Self::SeveralMaterials { .. } => None,
-            Self::NotUtf8 { at }
+            Self::Encoding { at, .. }
             | Self::Xml { at, .. }
             | Self::DocumentType { at }
             | Self::Limit { at, .. }
@@ -291,6 +306,7 @@ impl Error {
             | Self::Cycle { at, .. }
             | Self::MissingFile { at, .. }
             | Self::OutsideSearchPath { at, .. }
+            | Self::Tiles { at, .. }
             | Self::Picture { at, .. }
             | Self::NoSurface { at } => Some(at),
         }

@@ -34,7 +34,7 @@
 //!
 //! # What is read
 //!
-//! Documents of version 1.38 and 1.39: `surfacematerial`, `surface` (`bsdf`, `edf`, `opacity`), `surface_unlit`, nodegraphs with
+//! Documents of version 1.39, and of 1.38 as MaterialX upgrades them, in UTF-8, UTF-16 and ISO-8859-1: `surfacematerial`, `surface` (`bsdf`, `edf`, `opacity`), `surface_unlit`, nodegraphs with
 //! interface inputs, inside one another too, `xi:include`, looks, `fileprefix`, the colour spaces that MaterialX defines,
 //! also inherited from an element further out. Units are ignored: [`Document::warnings`] says where.
 //!

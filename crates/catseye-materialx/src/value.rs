@@ -218,10 +218,20 @@ fn number(text: &str) -> Option<f32> {
     (x.is_finite() || x.is_infinite() && spelt).then_some(x)
 }
 
-/// Exactly `N` numbers, separated by commas or, where there are none, by spaces.
+/// Exactly `N` numbers, separated by commas, spaces or both, as in MaterialX.
 fn numbers<const N: usize>(text: &str) -> Option<[f32; N]> {
-    let parts: Vec<&str> =
-        if text.contains(',') { text.split(',').collect() } else { text.split_whitespace().collect() };
-    let numbers = parts.into_iter().map(number).collect::<Option<Vec<_>>>()?;
-    numbers.try_into().ok()
+    parts(text).map(number).collect::<Option<Vec<_>>>()?.try_into().ok()
+}
+
+fn parts(text: &str) -> impl Iterator<Item = &str> {
+    text.split(|c: char| c == ',' || c.is_whitespace()).filter(|part| !part.is_empty())
+}
+
+/// What a text that is no value of this type should be, for messages.
+pub(crate) fn expected(ty: Type, text: &str) -> &'static str {
+    let overflows = |part: &str| part.parse().is_ok_and(f32::is_infinite) && number(part).is_none();
+    if ty.width() > 0 && parts(text).any(overflows) {
+        return "within single precision; write a number of at most 3.4e38";
+    }
+    ty.example()
 }

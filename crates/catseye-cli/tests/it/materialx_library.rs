@@ -98,6 +98,11 @@ fn the_library_loads_and_is_complete() {
 }
 
 #[test]
+fn old_documents_are_upgraded_as_the_reader_is_told() {
+    run("test_upgrade.py");
+}
+
+#[test]
 fn every_document_generates_and_compiles() {
     run("test_generate.py");
 }

@@ -253,6 +253,7 @@ pub(crate) fn find_picture(
         match refusal {
             Refusal::Missing => Error::MissingFile { at, name },
             Refusal::Outside => Error::OutsideSearchPath { at, name },
+            Refusal::Tiles => Error::Tiles { at, name },
         }
     })
 }

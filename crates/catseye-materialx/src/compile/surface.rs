@@ -54,6 +54,9 @@ impl<'a> Builder<'a> {
             return Err(Error::NoSurface { at: material.element.place() });
         };
         let surface = self.surface(surface, 0)?;
+        if node.connected("displacementshader").is_some() {
+            self.warn(&node, "displacementshader", "surfaces are not displaced: the displacement is ignored");
+        }
         Ok(self.finish(name, surface))
     }
 

@@ -6,7 +6,7 @@ use crate::{
     graph::{Feed, Graph, NodeRef, library::Definition},
     nodes::{of_category, of_type},
     text::element::Element,
-    value::{Type, Value},
+    value::{Type, Value, expected},
 };
 
 /// The type of a node's output.
@@ -146,7 +146,7 @@ pub(crate) fn constant<'a>(owner: &Element, input: &'a Element, ty: Type) -> Res
     let value = Value::parse(ty, text).ok_or_else(|| Error::BadValue {
         at: owner.place_of(input),
         value: quoted(text),
-        expected: ty.example(),
+        expected: expected(ty, text),
     })?;
     Ok(match value {
         Value::Color3(color) => Value::Color3(color_space(owner, input)?.to_linear(color)),

@@ -137,6 +137,15 @@ fn collect_units(element: &Element, warnings: &mut Vec<String>) {
         {
             warnings.push(format!("{}: the unit {} is ignored", element.place_of(child), quoted(unit)));
         }
+        let is_text = matches!(child.attribute("type"), Some("string" | "filename"));
+        if child.tag() == "input"
+            && child.has("value")
+            && child.attribute("value").is_none()
+            && !is_text
+            && warnings.len() < MOST
+        {
+            warnings.push(format!("{}: value=\"\" is ignored: the default counts", element.place_of(child)));
+        }
         collect_units(child, warnings);
     }
 }

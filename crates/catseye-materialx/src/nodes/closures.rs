@@ -69,7 +69,7 @@ const TANGENT: Port = geometry("tangent", Geometry::Tangent).accepting(Accepts::
 /// GGX alpha.
 const ALPHA: Port = valued("roughness", &[Type::Vector2], Value::Vector2([0.05; 2])).accepting(Accepts::Unit);
 const RETROREFLECTIVE: Port = flag("retroreflective", false);
-const FILM: Port = float("thinfilm_thickness", 0.0).accepting(Accepts::DefaultOnly);
+const FILM: Port = float("thinfilm_thickness", 0.0).accepting(Accepts::NotNegative);
 /// Without a film its index does nothing.
 const FILM_IOR: Port = float("thinfilm_ior", 1.5);
 const DISTRIBUTION: Port = word("distribution", &["ggx"]);
@@ -263,7 +263,7 @@ pub(super) static NODES: &[NodeDef] = &[
         &[
             connection("surfaceshader", SURFACE),
             connection("backsurfaceshader", SURFACE).accepting(Accepts::DefaultOnly),
-            connection("displacementshader", &[Type::DisplacementShader]).accepting(Accepts::DefaultOnly),
+            connection("displacementshader", &[Type::DisplacementShader]),
         ],
     ),
 ];

@@ -80,6 +80,37 @@ impl Element {
         Self { children, ..self }
     }
 
+    pub(crate) fn children_mut(&mut self) -> &mut Vec<Element> {
+        &mut self.children
+    }
+
+    /// The element inside with this tag and name.
+    pub(crate) fn child_mut(&mut self, tag: &str, name: &str) -> Option<&mut Element> {
+        self.children.iter_mut().find(|child| child.tag == tag && child.name() == Some(name))
+    }
+
+    /// An element that the document doesn't have: problems with it are told at this one's place.
+    pub(crate) fn sibling(&self, tag: &str, name: &str, ty: &str) -> Self {
+        let attributes = vec![Attribute::new("name", name), Attribute::new("type", ty)];
+        Self::new(tag.to_owned(), attributes, Vec::new(), self.span.clone(), self.inherited.clone())
+    }
+
+    pub(crate) fn set(&mut self, name: &str, value: &str) {
+        self.take(name);
+        self.attributes.push(Attribute::new(name, value));
+    }
+
+    /// Takes an attribute away; `None` where there is none or an empty one.
+    pub(crate) fn take(&mut self, name: &str) -> Option<String> {
+        let at = self.attributes.iter().position(|attribute| &*attribute.name == name)?;
+        Some(self.attributes.remove(at).value.into()).filter(|value: &String| !value.is_empty())
+    }
+
+    /// Whether there is such an attribute, with an empty text too.
+    pub(crate) fn has(&self, name: &str) -> bool {
+        self.attributes.iter().any(|attribute| &*attribute.name == name)
+    }
+
     pub(crate) fn take_children(&mut self) -> Vec<Element> {
         core::mem::take(&mut self.children)
     }

@@ -25,6 +25,8 @@ pub struct SearchPath {
 pub(crate) enum Refusal {
     Missing,
     Outside,
+    /// The name stands for many files.
+    Tiles,
 }
 
 impl SearchPath {
@@ -49,6 +51,9 @@ impl SearchPath {
 
     /// The file that an element of `source` names.
     pub(crate) fn find(&self, source: &Source, name: &str) -> Result<PathBuf, Refusal> {
+        if ["<UDIM>", "<UVTILE>"].iter().any(|token| name.contains(token)) {
+            return Err(Refusal::Tiles);
+        }
         let bases = source.folder().into_iter().chain(self.folders.iter().map(PathBuf::as_path));
         let mut refusal = Refusal::Missing;
         for base in bases {

@@ -78,6 +78,7 @@ impl<'a> Includer<'a> {
         let path = self.search_path.find(include.source(), name).map_err(|refusal| match refusal {
             Refusal::Missing => Error::MissingFile { at: include.place(), name: quoted(name) },
             Refusal::Outside => Error::OutsideSearchPath { at: include.place(), name: quoted(name) },
+            Refusal::Tiles => Error::Tiles { at: include.place(), name: quoted(name) },
         })?;
         if self.open.contains(&path) {
             let cycle = quoted(name);

@@ -6,8 +6,10 @@ use crate::{
     error::{Error, quoted},
     text::{
         element::Element,
+        encoding::decode,
         files::{MAX_BYTES, read},
         source::Source,
+        upgrade::upgrade,
         xml,
     },
 };
@@ -25,13 +27,7 @@ pub(crate) fn read_root(path: &Path, name: &str) -> Result<Element, Error> {
 
 pub(crate) fn parse_bytes(bytes: &[u8], name: &str, folder: Option<&Path>) -> Result<Element, Error> {
     refuse_large(bytes, name)?;
-    match str::from_utf8(bytes) {
-        Ok(text) => parse_text(text, name, folder),
-        Err(cause) => {
-            let valid = String::from_utf8_lossy(&bytes[..cause.valid_up_to()]);
-            Err(Error::NotUtf8 { at: Source::new(name, &valid).place(valid.len(), String::new()) })
-        }
-    }
+    parse_text(&decode(bytes, name)?, name, folder)
 }
 
 pub(crate) fn parse_text(text: &str, name: &str, folder: Option<&Path>) -> Result<Element, Error> {
@@ -40,11 +36,22 @@ pub(crate) fn parse_text(text: &str, name: &str, folder: Option<&Path>) -> Resul
         Some(folder) => Source::in_folder(name, text, folder),
         None => Source::new(name, text),
     };
-    let root = xml::parse(&Arc::new(source))?;
+    let mut root = xml::parse(&Arc::new(source))?;
     if root.tag() != "materialx" {
         return Err(Error::NotMaterialX { at: root.place() });
     }
-    refuse_version(&root)?;
+    match root.require("version")?.trim() {
+        "1.39" => {}
+        "1.38" => upgrade(&mut root),
+        version => {
+            let number = version.strip_prefix("1.").and_then(|minor| minor.parse::<u32>().ok());
+            let instead = match number {
+                Some(0..38) => "upgrade it with MaterialX's mxformat.py --upgrade",
+                _ => "versions 1.38 and 1.39 are",
+            };
+            return Err(Error::Version { at: root.place(), version: quoted(version), instead });
+        }
+    }
     Ok(root)
 }
 
@@ -53,13 +60,5 @@ fn refuse_large(bytes: &[u8], name: &str) -> Result<(), Error> {
         Err(Error::TooLarge { file: name.into(), limit: MAX_BYTES })
     } else {
         Ok(())
-    }
-}
-
-fn refuse_version(root: &Element) -> Result<(), Error> {
-    let version = root.require("version")?;
-    match version.trim() {
-        "1.38" | "1.39" => Ok(()),
-        other => Err(Error::Version { at: root.place(), version: quoted(other) }),
     }
 }

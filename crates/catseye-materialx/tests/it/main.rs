@@ -8,3 +8,4 @@ mod outputs;
 mod patterns;
 mod read;
 mod support;
+mod upgrade;
