@@ -3,12 +3,14 @@
 //! `outputs POINTS < DOCUMENTS`: a line of POINTS is a point (position in the world, in the object, normal, tangent,
 //! bitangent, texture coordinates, view: 20 numbers); documents are separated by form feeds. For each document, for
 //! each of its outputs, for each point, a line: four numbers, or in place of all of them `error: ` and why; then a form feed.
+//! Definitions and pictures come from the folders of `MATERIALX_SEARCH_PATH`.
+//!
 //! `outputs --categories` prints the categories of nodes that are built in.
 #![expect(clippy::print_stdout, reason = "this is what it is for")]
 
-use std::{env, error::Error, fs, io::read_to_string, io::stdin};
+use std::{env, error::Error, fs, io::read_to_string, io::stdin, sync::Arc};
 
-use catseye_materialx::{Document, ShadingPoint, pattern_categories};
+use catseye_materialx::{Document, Library, SearchPath, ShadingPoint, pattern_categories};
 
 fn point(line: &str) -> Option<ShadingPoint> {
     let numbers: Vec<f32> = line.split_whitespace().map(|x| x.parse().ok()).collect::<Option<_>>()?;
@@ -18,8 +20,12 @@ fn point(line: &str) -> Option<ShadingPoint> {
     Some(ShadingPoint { position, position_object, normal, tangent, bitangent, texcoord, view })
 }
 
-fn print(text: &str, points: &[ShadingPoint]) -> Result<(), catseye_materialx::Error> {
-    for output in Document::parse(text, "document")?.outputs()? {
+fn print(
+    text: &str,
+    library: &Arc<Library>,
+    points: &[ShadingPoint],
+) -> Result<(), catseye_materialx::Error> {
+    for output in Document::parse_with(text, "document", library)?.outputs()? {
         for point in points {
             let [x, y, z, w] = output.at(point);
             println!("{x} {y} {z} {w}");
@@ -36,8 +42,9 @@ fn main() -> Result<(), Box<dyn Error>> {
     }
     let points: Option<Vec<_>> = fs::read_to_string(file)?.lines().map(point).collect();
     let points = points.ok_or("a point has 20 numbers")?;
+    let library = Arc::new(Library::load(SearchPath::from_env())?);
     for text in read_to_string(stdin())?.split('\x0c') {
-        if let Err(problem) = print(text, &points) {
+        if let Err(problem) = print(text, &library, &points) {
             println!("error: {problem}");
         }
         println!("\x0c");

@@ -45,14 +45,14 @@ fn python() -> Option<PathBuf> {
     })
 }
 
-/// The example that renders our half of the pictures.
-fn direct_sphere() -> Option<PathBuf> {
-    let build = ["build", "--release", "--package", "catseye-render", "--example", "direct_sphere"];
+/// An example that some of the tests run: it renders our half of pictures, or evaluates nodes.
+fn example(package: &str, name: &str) -> Option<PathBuf> {
+    let build = ["build", "--release", "--package", package, "--example", name];
     // Beside the tests' own folder, whatever their profile: in most runs it is built already.
     let folder = target().join("..");
     let mut cargo = Command::new(env!("CARGO"));
     let built = succeeds(cargo.args(build).arg("--target-dir").arg(&folder).current_dir(root()));
-    built.then(|| folder.join("release/examples/direct_sphere"))
+    built.then(|| folder.join("release/examples").join(name))
 }
 
 /// Says so past the test harness, which would keep the output of a test that passes to itself.
@@ -82,8 +82,13 @@ fn run(file: &str) {
         .current_dir(tests())
         .env("CATSEYE", env!("CARGO_BIN_EXE_catseye"))
         .env("CATSEYE_EVIDENCE", target().join("../evidence/materialx"));
-    if let Some(example) = pictures.then(direct_sphere).flatten() {
-        command.env("DIRECT_SPHERE", example);
+    let needed = match file {
+        "test_pictures.py" => Some(("DIRECT_SPHERE", example("catseye-render", "direct_sphere"))),
+        "test_nodes.py" => Some(("OUTPUTS", example("catseye-materialx", "outputs"))),
+        _ => None,
+    };
+    if let Some((name, Some(path))) = needed {
+        command.env(name, path);
     }
     let output = command.output().unwrap();
     let text = String::from_utf8_lossy(&output.stderr);
@@ -113,6 +118,11 @@ fn without_the_library_the_look_by_day_is_kept() {
 }
 
 #[test]
+fn nodes_are_those_of_materialx() {
+    run("test_nodes.py");
+}
+
+#[test]
 fn values_match_the_oracle() {
     run("test_values.py");
 }
@@ -135,6 +145,7 @@ fn what_is_missing_fails_where_everything_is_required() {
     let files = [
         ("test_generate.py", "Generate.test_glsl_compiles"),
         ("test_fallback.py", "Fallback.test_the_surface_is_translated"),
+        ("test_nodes.py", "Nodes"),
         ("test_values.py", "Values"),
         ("test_environment.py", "Environment"),
         ("test_pictures.py", "Pictures"),

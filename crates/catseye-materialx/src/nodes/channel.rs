@@ -1,7 +1,8 @@
 //! Components of colours and vectors.
 
 use super::{
-    COLOR4, FLOAT, Inputs, Meaning, NodeDef, SEVERAL, VALUES, VECTOR2, VECTOR4, formula,
+    BOOLEAN, COLOR3, COLOR4, FLOAT, FLOATS, INTEGER, Inputs, Meaning, NodeDef, SEVERAL, VALUES, VECTOR2,
+    VECTOR3, VECTOR4, formula,
     port::{Accepts, Port, color, float, integer, of, same, text, vector2, vector3},
 };
 use crate::{program::Expr, value::Type};
@@ -29,25 +30,54 @@ fn combined<'p>(n: &Inputs<'p>) -> Expr<'p> {
     n.program.combine(&parts)
 }
 
-pub(super) static NODES: &[NodeDef] = &[
-    // One number becomes all components; a fourth one that is missing becomes 1, as alpha is; else components are
-    // dropped or 0.
-    formula("convert", VALUES, &[of("in", VALUES, 0.0)], |n| {
-        let [x] = n.all();
-        match (x.width(), n.ty) {
-            (1, Type::Boolean) => 1.0 - x.equal(0.0),
-            (1, Type::Integer) => x.floor(),
-            (1, _) => x.to(n.width()),
-            (2 | 3, Type::Color4 | Type::Vector4) => {
-                n.program.combine(&[x.part(0), x.part(1), x.part(2), n.program.number(1.0)])
-            }
-            _ => x.resize(n.width()),
+/// One number becomes all components; a fourth one that is missing becomes 1, as alpha is; else components are dropped
+/// or 0.
+fn converted<'p>(n: &Inputs<'p>) -> Expr<'p> {
+    let [x] = n.all();
+    match (x.width(), n.ty) {
+        (1, Type::Boolean) => 1.0 - x.equal(0.0),
+        (1, _) => x.to(n.width()),
+        (2 | 3, Type::Color4 | Type::Vector4) => {
+            n.program.combine(&[x.part(0), x.part(1), x.part(2), n.program.number(1.0)])
         }
-    }),
+        _ => x.resize(n.width()),
+    }
+}
+
+/// What is converted to each type: all others.
+const WITHOUT_COLOR3: &[Type] = &without(Type::Color3);
+const WITHOUT_COLOR4: &[Type] = &without(Type::Color4);
+const WITHOUT_VECTOR2: &[Type] = &without(Type::Vector2);
+const WITHOUT_VECTOR3: &[Type] = &without(Type::Vector3);
+const WITHOUT_VECTOR4: &[Type] = &without(Type::Vector4);
+
+const fn without(ty: Type) -> [Type; VALUES.len() - 1] {
+    let mut rest = [Type::Float; VALUES.len() - 1];
+    let (mut from, mut to) = (0, 0);
+    while from < VALUES.len() {
+        if VALUES[from] as u8 != ty as u8 {
+            rest[to] = VALUES[from];
+            to += 1;
+        }
+        from += 1;
+    }
+    rest
+}
+
+pub(super) static NODES: &[NodeDef] = &[
+    formula("convert", BOOLEAN, &[of("in", &[Type::Integer], 0.0)], converted),
+    formula("convert", INTEGER, &[of("in", &[Type::Boolean], 0.0)], converted),
+    formula("convert", FLOAT, &[of("in", &[Type::Integer, Type::Boolean], 0.0)], converted),
+    formula("convert", COLOR3, &[of("in", WITHOUT_COLOR3, 0.0)], converted),
+    formula("convert", COLOR4, &[of("in", WITHOUT_COLOR4, 0.0)], converted),
+    formula("convert", VECTOR2, &[of("in", WITHOUT_VECTOR2, 0.0)], converted),
+    formula("convert", VECTOR3, &[of("in", WITHOUT_VECTOR3, 0.0)], converted),
+    formula("convert", VECTOR4, &[of("in", WITHOUT_VECTOR4, 0.0)], converted),
+    // MaterialX 1.38.
     formula(
         "swizzle",
-        VALUES,
-        &[of("in", VALUES, 0.0), text("channels").accepting(Accepts::Channels)],
+        FLOATS,
+        &[of("in", FLOATS, 0.0), text("channels").accepting(Accepts::Channels)],
         |n| {
             let [x] = n.all();
             let part = |channel| match channel {

@@ -1,7 +1,7 @@
 //! Adjustment of colours, and composition of two.
 
 use super::{
-    COLOR, Inputs, NUMBERS, NodeDef, formula,
+    COLOR, FLOAT_AND_COLORS, FLOATS, Inputs, NodeDef, formula,
     math::remap,
     operation,
     port::{Port, color3, flag, float, same, same_or_float, valued},
@@ -72,7 +72,7 @@ pub(super) static NODES: &[NodeDef] = &[
     }),
     formula(
         "range",
-        NUMBERS,
+        FLOATS,
         &[
             same("in", 0.0),
             same_or_float("inlow", 0.0),
@@ -91,15 +91,15 @@ pub(super) static NODES: &[NodeDef] = &[
             clamp.select(result.clamp(low, high), result)
         },
     ),
-    formula("mix", NUMBERS, &[same("fg", 0.0), same("bg", 0.0), same_or_float("mix", 0.0)], |n| {
+    formula("mix", FLOATS, &[same("fg", 0.0), same("bg", 0.0), same_or_float("mix", 0.0)], |n| {
         let [fg, bg, mix] = n.all();
         bg.mix(fg, mix)
     }),
-    formula("plus", NUMBERS, BLEND, |n| blend(n, |fg, bg| bg + fg)),
-    formula("minus", NUMBERS, BLEND, |n| blend(n, |fg, bg| bg - fg)),
-    formula("difference", NUMBERS, BLEND, |n| blend(n, |fg, bg| (bg - fg).abs())),
-    formula("screen", NUMBERS, BLEND, |n| blend(n, |fg, bg| 1.0 - (1.0 - fg) * (1.0 - bg))),
-    formula("overlay", NUMBERS, BLEND, |n| {
+    formula("plus", FLOAT_AND_COLORS, BLEND, |n| blend(n, |fg, bg| bg + fg)),
+    formula("minus", FLOAT_AND_COLORS, BLEND, |n| blend(n, |fg, bg| bg - fg)),
+    formula("difference", FLOAT_AND_COLORS, BLEND, |n| blend(n, |fg, bg| (bg - fg).abs())),
+    formula("screen", FLOAT_AND_COLORS, BLEND, |n| blend(n, |fg, bg| 1.0 - (1.0 - fg) * (1.0 - bg))),
+    formula("overlay", FLOAT_AND_COLORS, BLEND, |n| {
         blend(n, |fg, bg| {
             fg.for_each([bg], |fg, [bg]| {
                 let (dark, light) = (fg * bg * 2.0, 1.0 - (1.0 - bg) * (1.0 - fg) * 2.0);
@@ -107,13 +107,13 @@ pub(super) static NODES: &[NodeDef] = &[
             })
         })
     }),
-    formula("burn", NUMBERS, BLEND, |n| blend_quotient(n, |fg| fg, |fg, bg| 1.0 - (1.0 - bg) / fg)),
-    formula("dodge", NUMBERS, BLEND, |n| blend_quotient(n, |fg| 1.0 - fg, |rest, bg| bg / rest)),
-    formula("inside", NUMBERS, &[same("in", 0.0), float("mask", 1.0)], |n| {
+    formula("burn", FLOAT_AND_COLORS, BLEND, |n| blend_quotient(n, |fg| fg, |fg, bg| 1.0 - (1.0 - bg) / fg)),
+    formula("dodge", FLOAT_AND_COLORS, BLEND, |n| blend_quotient(n, |fg| 1.0 - fg, |rest, bg| bg / rest)),
+    formula("inside", FLOAT_AND_COLORS, &[same("in", 0.0), float("mask", 1.0)], |n| {
         let [x, mask] = n.all();
         x * mask
     }),
-    formula("outside", NUMBERS, &[same("in", 0.0), float("mask", 0.0)], |n| {
+    formula("outside", FLOAT_AND_COLORS, &[same("in", 0.0), float("mask", 0.0)], |n| {
         let [x, mask] = n.all();
         x * (1.0 - mask)
     }),

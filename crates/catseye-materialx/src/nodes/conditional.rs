@@ -1,7 +1,7 @@
 //! Choices and logic.
 
 use super::{
-    BOOLEAN, Inputs, NUMBERS, NodeDef, VALUES, formula,
+    BOOLEAN, FLOATS, Inputs, NUMBERS, NodeDef, formula,
     port::{Port, flag, of, same},
 };
 use crate::{program::Expr, value::Type};
@@ -15,7 +15,7 @@ const IF_EQUAL: &[Port] =
     &[of("value1", EQUATABLE, 0.0), of("value2", EQUATABLE, 0.0), same("in1", 0.0), same("in2", 0.0)];
 /// The comparison itself.
 const COMPARE: &[Port] = &[of("value1", COMPARABLE, 1.0), of("value2", COMPARABLE, 0.0)];
-const EQUATE: &[Port] = &[of("value1", EQUATABLE, 1.0), of("value2", EQUATABLE, 0.0)];
+const EQUATE: &[Port] = &[flag("value1", false), flag("value2", false)];
 const LOGIC: &[Port] = &[flag("in1", false), flag("in2", false)];
 
 fn choose<'p>(n: &Inputs<'p>, condition: impl Fn(Expr<'p>, Expr<'p>) -> Expr<'p>) -> Expr<'p> {
@@ -34,10 +34,11 @@ pub(super) static NODES: &[NodeDef] = &[
     formula("ifgreatereq", NUMBERS, IF, |n| choose(n, |a, b| a.greater_or_equal(b))),
     formula("ifgreatereq", BOOLEAN, COMPARE, |n| compare(n, |a, b| a.greater_or_equal(b))),
     formula("ifequal", NUMBERS, IF_EQUAL, |n| choose(n, |a, b| a.equal(b))),
+    formula("ifequal", BOOLEAN, COMPARE, |n| compare(n, |a, b| a.equal(b))),
     formula("ifequal", BOOLEAN, EQUATE, |n| compare(n, |a, b| a.equal(b))),
     formula(
         "switch",
-        VALUES,
+        FLOATS,
         &[
             same("in1", 0.0),
             same("in2", 0.0),

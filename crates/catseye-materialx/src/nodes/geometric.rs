@@ -1,7 +1,7 @@
 //! What the geometry gives. Space and time have one frame here, but for positions.
 
 use super::{
-    FLOAT, Inputs, NUMBERS, NodeDef, VALUES, VECTOR2, VECTOR3, formula,
+    FLOAT, FLOAT_AND_COLORS, Inputs, NodeDef, VALUES, VECTOR2, VECTOR3, formula,
     port::{Port, flag, float, geometry, integer, same, text, word},
 };
 use crate::program::{Expr, Geometry};
@@ -26,7 +26,7 @@ pub(super) static NODES: &[NodeDef] = &[
         own(n, Geometry::View)
     }),
     // No geometry has colours or properties of its own.
-    formula("geomcolor", NUMBERS, &[integer("index", 0.0)], |n| n.program.number(1.0)),
+    formula("geomcolor", FLOAT_AND_COLORS, &[integer("index", 0.0)], |n| n.program.number(1.0)),
     formula("geompropvalue", VALUES, &[text("geomprop"), same("default", 0.0)], |n| {
         let [default] = n.all();
         default

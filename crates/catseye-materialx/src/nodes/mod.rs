@@ -129,6 +129,8 @@ const FLOATS: &[Type] =
     &[Type::Float, Type::Color3, Type::Color4, Type::Vector2, Type::Vector3, Type::Vector4];
 const NUMBERS: &[Type] =
     &[Type::Float, Type::Color3, Type::Color4, Type::Vector2, Type::Vector3, Type::Vector4, Type::Integer];
+const FLOAT_AND_COLORS: &[Type] = &[Type::Float, Type::Color3, Type::Color4];
+const FLOAT_AND_VECTORS: &[Type] = &[Type::Float, Type::Vector2, Type::Vector3, Type::Vector4];
 /// All that a pattern computes.
 const VALUES: &[Type] = &[
     Type::Float,

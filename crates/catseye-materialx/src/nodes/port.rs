@@ -21,6 +21,8 @@ pub(crate) enum Types {
     Same,
     /// The node's own type, or a float for all components.
     SameOrFloat,
+    /// The vector that is as wide as the node's own type, or a float for all components.
+    VectorOrFloat,
     /// One of these; the first one where the input is left out.
     Of(&'static [Type]),
 }
@@ -73,17 +75,14 @@ impl Port {
     pub(crate) fn default_type(&self, node: Type) -> Type {
         match self.types {
             Types::Same | Types::SameOrFloat => node,
+            Types::VectorOrFloat => Type::Float,
             Types::Of(types) => types[0],
         }
     }
 
     /// Whether in a node of type `node` it may have a type.
     pub(crate) fn has_type(&self, node: Type, ty: Type) -> bool {
-        match self.types {
-            Types::Same => ty == node,
-            Types::SameOrFloat => ty == node || ty == Type::Float,
-            Types::Of(types) => types.contains(&ty),
-        }
+        self.types(node).contains(&ty)
     }
 
     /// The types that it may have in a node of type `node`.
@@ -91,6 +90,12 @@ impl Port {
         match self.types {
             Types::SameOrFloat if node != Type::Float => vec![node, Type::Float],
             Types::Same | Types::SameOrFloat => vec![node],
+            Types::VectorOrFloat => match node.width() {
+                2 => vec![Type::Vector2, Type::Float],
+                3 => vec![Type::Vector3, Type::Float],
+                4 => vec![Type::Vector4, Type::Float],
+                _ => vec![Type::Float],
+            },
             Types::Of(types) => types.to_vec(),
         }
     }
@@ -176,6 +181,10 @@ pub(crate) const fn same(name: &'static str, default: f32) -> Port {
 
 pub(crate) const fn same_or_float(name: &'static str, default: f32) -> Port {
     port(name, Types::SameOrFloat, Default::Number(default))
+}
+
+pub(crate) const fn vector_or_float(name: &'static str, default: f32) -> Port {
+    port(name, Types::VectorOrFloat, Default::Number(default))
 }
 
 /// An input of one of several types, of the first one where it is left out.

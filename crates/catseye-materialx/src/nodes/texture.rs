@@ -1,7 +1,7 @@
 //! Pictures.
 
 use super::{
-    Inputs, NUMBERS, NodeDef, formula,
+    FLOATS, Inputs, NodeDef, formula,
     port::{Port, file, integer, same, texcoord, text, vector2, word},
 };
 use crate::program::{
@@ -28,7 +28,7 @@ fn look_up<'p>(n: &Inputs<'p>, at: Expr<'p>, wrap: [Wrap; 2], default: Expr<'p>)
 pub(super) static NODES: &[NodeDef] = &[
     formula(
         "image",
-        NUMBERS,
+        FLOATS,
         &[
             file("file"),
             text("layer"),
@@ -50,7 +50,7 @@ pub(super) static NODES: &[NodeDef] = &[
     ),
     formula(
         "tiledimage",
-        NUMBERS,
+        FLOATS,
         &[
             file("file"),
             same("default", 0.0),

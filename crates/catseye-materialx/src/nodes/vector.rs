@@ -67,14 +67,30 @@ pub(super) static NODES: &[NodeDef] = &[
     formula("transformmatrix", VECTOR3, &[vector3("in", 0.0), MATRIX33], transform),
     formula("transformmatrix", VECTOR3, &[vector3("in", 0.0), MATRIX44], transform),
     formula("transformmatrix", VECTOR4, &[same("in", 0.0), MATRIX44], transform),
-    // All spaces are one here.
-    formula("transformpoint", VECTOR3, &[vector3("in", 0.0), SPACES[0], SPACES[1]], first),
-    formula("transformvector", VECTOR3, &[vector3("in", 0.0), SPACES[0], SPACES[1]], first),
+    // Objects are moved here, not turned.
+    formula("transformpoint", VECTOR3, &[vector3("in", 0.0), SPACES[0], SPACES[1]], |n| {
+        let [x] = n.all();
+        let [position, object] =
+            [Geometry::Position, Geometry::PositionObject].map(|geometry| n.program.geometry(geometry));
+        let [from, to] = ["fromspace", "tospace"].map(|name| n.text(name));
+        match (from, to) {
+            ("world", "object" | "model") => x - (position - object),
+            ("object" | "model", "world") => x + (position - object),
+            _ => x,
+        }
+    }),
+    formula("transformvector", VECTOR3, &[vector3("in", 0.0), SPACES[0], SPACES[1]], |n| {
+        let [x] = n.all();
+        x
+    }),
     formula(
         "transformnormal",
         VECTOR3,
         &[valued("in", VECTOR3, Value::Vector3([0.0, 0.0, 1.0])), SPACES[0], SPACES[1]],
-        first,
+        |n| {
+            let [x] = n.all();
+            x.normalize()
+        },
     ),
     formula(
         "normalmap",
@@ -123,9 +139,4 @@ pub(super) static NODES: &[NodeDef] = &[
 fn transform<'p>(n: &super::Inputs<'p>) -> Expr<'p> {
     let [v] = n.all();
     n.matrix("mat").transform(v)
-}
-
-fn first<'p>(n: &super::Inputs<'p>) -> Expr<'p> {
-    let [x] = n.all();
-    x
 }

@@ -16,24 +16,40 @@ fn mix_finally([mut a, mut b, mut c]: [u32; 3]) -> u32 {
     c
 }
 
-/// A hash of up to three integers.
+/// Jenkins' mixing of three words before more of them are added.
+fn mix_between([mut a, mut b, mut c]: [u32; 3]) -> [u32; 3] {
+    for turns in [[4, 6, 8], [16, 19, 4]] {
+        for turn in turns {
+            a = a.wrapping_sub(c) ^ c.rotate_left(turn);
+            c = c.wrapping_add(b);
+            [a, b, c] = [b, c, a];
+        }
+    }
+    [a, b, c]
+}
+
+/// A hash of up to four integers.
 fn hash(keys: &[i32]) -> u32 {
     let start = 0xdead_beef_u32.wrapping_add((keys.len() as u32) << 2).wrapping_add(13);
     let mut state = [start; 3];
-    for (word, key) in state.iter_mut().zip(keys) {
-        *word = word.wrapping_add(*key as u32);
+    for (i, key) in keys.iter().enumerate() {
+        if i == 3 {
+            state = mix_between(state);
+        }
+        state[i % 3] = state[i % 3].wrapping_add(*key as u32);
     }
     mix_finally(state)
 }
 
-/// A number in `[0, 1)` for the unit cell of a position.
-pub(crate) fn cell(position: &[f32]) -> f32 {
-    let mut keys = [0; 3];
-    let count = position.len().min(3);
-    for (key, x) in keys.iter_mut().zip(position) {
-        *key = x.floor() as i32;
-    }
-    unit(hash(&keys[..count]))
+/// Numbers in `[0, 1)` for the unit cell of a position: one, or several that differ in a last word of the hash.
+pub(crate) fn cell<const N: usize>(position: [f32; N], width: u8) -> Lanes {
+    let mut keys = [0; 4];
+    keys[..N].copy_from_slice(&position.map(|x| x.floor() as i32));
+    core::array::from_fn(|i| {
+        keys[N] = i as i32;
+        let count = if width > 1 { N + 1 } else { N };
+        unit(hash(&keys[..count]))
+    })
 }
 
 fn unit(hash: u32) -> f32 {
@@ -120,46 +136,60 @@ fn lerp(a: f32, b: f32, t: f32) -> f32 {
     a + (b - a) * t
 }
 
-/// Distances to the nearest, second and third nearest of jittered feature points, one to a cell (Worley 1996).
-pub(crate) fn worley_2d(position: [f32; 2], jitter: f32) -> Lanes {
-    let ((xi, xf), (yi, yf)) = (split(position[0]), split(position[1]));
-    let mut nearest = [f32::INFINITY; 3];
-    for i in -1..=1 {
-        for j in -1..=1 {
-            let key = [xi.wrapping_add(i), yi.wrapping_add(j)];
-            let at = |axis: i32| 0.5 + (unit(hash(&[key[0], key[1], axis])) - 0.5) * jitter;
-            let (dx, dy) = (i as f32 + at(0) - xf, j as f32 + at(1) - yf);
-            insert(&mut nearest, dx * dx + dy * dy);
+/// Jittered feature points about a position, one to a cell (Worley 1996).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Worley<const N: usize> {
+    nearest: [f32; N],
+    /// Of the three nearest.
+    squared_distances: [f32; 3],
+}
+
+impl<const N: usize> Worley<N> {
+    /// Of the nine cells about a position in the plane, or the 27 in space.
+    pub(crate) fn new(position: [f32; N], jitter: f32) -> Self {
+        let split = position.map(split);
+        let mut found = Self { nearest: [0.0; N], squared_distances: [f32::INFINITY; 3] };
+        for n in 0..3_i32.pow(N as u32) {
+            // The last axis is the innermost: of points that are as near as each other the first one counts.
+            let offset = |axis: usize| n / 3_i32.pow((N - 1 - axis) as u32) % 3 - 1;
+            let mut keys = [0; 4];
+            for axis in 0..N {
+                keys[axis] = split[axis].0.wrapping_add(offset(axis));
+            }
+            let towards: [f32; N] = core::array::from_fn(|axis| {
+                keys[N] = axis as i32;
+                let jittered = (unit(hash(&keys[..=N])) - 0.5) * jitter + 0.5;
+                offset(axis) as f32 + jittered - split[axis].1
+            });
+            let squared_distance = towards.iter().map(|x| x * x).sum();
+            if squared_distance < found.squared_distances[0] {
+                found.nearest = core::array::from_fn(|axis| towards[axis] + position[axis]);
+            }
+            found.insert(squared_distance);
+        }
+        found
+    }
+
+    fn insert(&mut self, mut distance: f32) {
+        for slot in &mut self.squared_distances {
+            if distance < *slot {
+                core::mem::swap(slot, &mut distance);
+            }
         }
     }
-    distances(nearest)
-}
 
-/// As [`worley_2d`], in space.
-pub(crate) fn worley_3d(position: [f32; 3], jitter: f32) -> Lanes {
-    let [(xi, xf), (yi, yf), (zi, zf)] = position.map(split);
-    let mut nearest = [f32::INFINITY; 3];
-    for n in 0..27 {
-        let [i, j, k] = [n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1];
-        let cell = hash(&[xi.wrapping_add(i), yi.wrapping_add(j), zi.wrapping_add(k)]) as i32;
-        let at = |axis: i32| 0.5 + (unit(hash(&[cell, axis])) - 0.5) * jitter;
-        let d = [i as f32 + at(0) - xf, j as f32 + at(1) - yf, k as f32 + at(2) - zf];
-        insert(&mut nearest, d.iter().map(|x| x * x).sum());
+    /// To the nearest, second and third nearest of them.
+    pub(crate) fn distances(self) -> Lanes {
+        let [a, b, c] = self.squared_distances.map(f32::sqrt);
+        [a, b, c, 0.0]
     }
-    distances(nearest)
-}
 
-fn insert(nearest: &mut [f32; 3], mut distance: f32) {
-    for slot in nearest {
-        if distance < *slot {
-            core::mem::swap(slot, &mut distance);
-        }
+    /// The nearest of them.
+    pub(crate) fn nearest(self) -> Lanes {
+        let mut lanes = [0.0; 4];
+        lanes[..N].copy_from_slice(&self.nearest);
+        lanes
     }
-}
-
-fn distances(squares: [f32; 3]) -> Lanes {
-    let [a, b, c] = squares.map(f32::sqrt);
-    [a, b, c, 0.0]
 }
 
 #[cfg(test)]
@@ -176,8 +206,8 @@ mod tests {
             for value in gradient_2d([x, y], 3).into_iter().chain(gradient_3d([x, y, 0.3 * x], 4)) {
                 assert!(value.abs() <= 1.1, "{value}");
             }
-            assert!((0.0..1.0).contains(&cell(&[x, y])));
-            let near = worley_2d([x, y], 1.0);
+            assert!(cell([x, y], 3).iter().all(|x| (0.0..1.0).contains(x)));
+            let near = Worley::new([x, y], 1.0).distances();
             assert!(near[0] <= near[1] && near[1] <= near[2] && near[0] < 1.5);
         }
     }
@@ -200,8 +230,8 @@ mod tests {
             let _ = (
                 gradient_2d([x, x], 4),
                 gradient_3d([x, 0.0, x], 3),
-                cell(&[x, x, x]),
-                worley_3d([x; 3], 1.0),
+                cell([x, x, x], 3),
+                Worley::new([x; 3], 1.0).distances(),
             );
         }
     }

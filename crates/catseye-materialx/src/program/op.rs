@@ -4,6 +4,7 @@ use std::sync::Arc;
 
 use super::{
     Lanes, ShadingPoint, noise,
+    noise::Worley,
     texture::{Filter, Texture, Wrap},
 };
 
@@ -75,12 +76,15 @@ pub(crate) enum Op {
     /// Gradient noise of as many components, about `[-1, 1]`.
     Noise2,
     Noise3,
-    /// One number in `[0, 1)` for each unit cell.
+    /// Numbers in `[0, 1)` for each unit cell.
     Cell2,
     Cell3,
     /// Distances to the nearest feature points; sources are the position and the jitter.
     Worley2,
     Worley3,
+    /// The nearest feature point, of the same sources.
+    Nearest2,
+    Nearest3,
     /// A texture at texture coordinates, with a default where nothing is.
     Image {
         texture: u32,
@@ -172,10 +176,12 @@ impl Op {
             Self::HsvToRgb => rgb_from_hsv(a),
             Self::Noise2 => noise::gradient_2d([a[0], a[1]], width),
             Self::Noise3 => noise::gradient_3d([a[0], a[1], a[2]], width),
-            Self::Cell2 => scalar(noise::cell(&[a[0], a[1]])),
-            Self::Cell3 => scalar(noise::cell(&[a[0], a[1], a[2]])),
-            Self::Worley2 => noise::worley_2d([a[0], a[1]], b[0]),
-            Self::Worley3 => noise::worley_3d([a[0], a[1], a[2]], b[0]),
+            Self::Cell2 => noise::cell([a[0], a[1]], width),
+            Self::Cell3 => noise::cell([a[0], a[1], a[2]], width),
+            Self::Worley2 => Worley::new([a[0], a[1]], b[0]).distances(),
+            Self::Worley3 => Worley::new([a[0], a[1], a[2]], b[0]).distances(),
+            Self::Nearest2 => Worley::new([a[0], a[1]], b[0]).nearest(),
+            Self::Nearest3 => Worley::new([a[0], a[1], a[2]], b[0]).nearest(),
             Self::Image { texture, wrap, filter } => {
                 textures[texture as usize].look_up([a[0], a[1]], wrap, filter, *b)
             }
@@ -240,10 +246,11 @@ fn hsv_from_rgb(rgb: &Lanes) -> Lanes {
     [(sixths / 6.0).rem_euclid(1.0), range / max, max, alpha]
 }
 
-/// The inverse of [`hsv_from_rgb`].
+/// The inverse of [`hsv_from_rgb`]; a saturation below 0 is 0.
 fn rgb_from_hsv(hsv: &Lanes) -> Lanes {
     let [h, s, v, alpha] = *hsv;
     let sixths = 6.0 * (h - h.floor());
+    let s = s.max(0.0);
     // How far a channel is from full at this hue.
     let channel = |offset: f32| {
         let k = (offset + sixths).rem_euclid(6.0);

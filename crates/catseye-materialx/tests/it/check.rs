@@ -100,7 +100,7 @@ fn unknown_words_are_refused_by_check_and_by_reading() {
     let cases = [
         ("swizzle", "color3", r#"<input name="channels" type="string" value="rgq" />"#, "channels"),
         ("swizzle", "color3", r#"<input name="channels" type="string" value="rgba" />"#, "channels"),
-        ("worleynoise2d", "vector3", r#"<input name="style" type="integer" value="1" />"#, "style"),
+        ("worleynoise2d", "vector3", r#"<input name="style" type="integer" value="2" />"#, "style"),
         ("image", "color3", r#"<input name="uaddressmode" type="string" value="bogus" />"#, "uaddressmode"),
         ("image", "color3", r#"<input name="filtertype" type="string" value="bogus" />"#, "filtertype"),
         (
