@@ -4,7 +4,8 @@ use std::fmt;
 use std::io;
 use std::process::ExitCode;
 
-/// The command was asked for something that it can't do, as opposed to failing at something that it can: exit code 2.
+/// The command was asked for something that it can't do, as opposed to failing at something that it can: exit
+/// code 2.
 #[derive(Debug)]
 pub(crate) struct Usage(pub(crate) String);
 
@@ -26,8 +27,8 @@ pub(crate) fn exit_code(result: anyhow::Result<()>) -> ExitCode {
     if error.is::<Usage>() { ExitCode::from(2) } else { ExitCode::FAILURE }
 }
 
-/// The error and its causes on one line, which several would hide the place in. A cause that the error before it has
-/// named already is left out.
+/// The error and its causes on one line, which several would hide the place in. A cause that the error before
+/// it has named already is left out.
 fn line(error: &anyhow::Error) -> String {
     let mut text = String::new();
     for cause in error.chain().map(ToString::to_string) {

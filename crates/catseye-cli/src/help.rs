@@ -79,8 +79,8 @@ Table format:
     limit             minimum, maximum or typical
     standard, class, colour, source
   - Other columns are carried through; one named model is replaced.
-  - Capitals in the header don't matter. An empty cell is a missing one. A bad row is an error that names line and
-    column; nothing is printed then.";
+  - Capitals in the header don't matter. An empty cell is a missing one.
+  - A bad row is an error that names line and column; nothing is printed then.";
 
 /// Example of `catseye openmaterial`.
 pub(crate) const OPENMATERIAL: &str = "\

@@ -19,7 +19,8 @@ struct Pending {
 
 /// From now on an interrupted command cleans up.
 pub(crate) fn install() {
-    // Where no handler can be set the command works as well, and leaves a temporary file where it is interrupted.
+    // Where no handler can be set the command works as well, and leaves a temporary file where it is
+    // interrupted.
     ctrlc::set_handler(|| {
         // Held until the end: nothing is written while we say what is not.
         let pending = lock();

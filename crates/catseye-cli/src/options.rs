@@ -69,8 +69,8 @@ pub(crate) enum Backend {
 /// Where MaterialX's libraries and the files of documents are.
 #[derive(Debug, clap::Args)]
 pub(crate) struct LibraryArgs {
-    /// Folder that files may be read from, and whose `libraries` define nodes; may be given several times [default: those
-    /// of `MATERIALX_SEARCH_PATH`]
+    /// Folder that files may be read from, and whose `libraries` define nodes; may be given several times
+    /// [default: those of `MATERIALX_SEARCH_PATH`]
     #[arg(long = "materialx-path", value_name = "DIR")]
     folders: Vec<PathBuf>,
 }

@@ -71,8 +71,8 @@ impl Output {
     }
 }
 
-/// The format of a file, of those that are named as their files end: the one that was asked for, or else the one that
-/// the name ends in, or else, on standard output, the first.
+/// The format of a file, of those that are named as their files end: the one that was asked for, or else the
+/// one that the name ends in, or else, on standard output, the first.
 pub(crate) fn format<F: ValueEnum + PartialEq>(path: &Path, asked: Option<F>) -> anyhow::Result<F> {
     let name =
         |format: &F| format.to_possible_value().map(|value| value.get_name().to_owned()).unwrap_or_default();

@@ -12,7 +12,8 @@ use crate::failure::Usage;
 
 /// What is made of three colour channels.
 ///
-/// Photometers measure in illuminant A; a material that is given in three channels can't say what changes in that light.
+/// Photometers measure in illuminant A; a material that is given in three channels can't say what changes in
+/// that light.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, ValueEnum)]
 pub(crate) enum Channel {
     /// 0.2126 R + 0.7152 G + 0.0722 B

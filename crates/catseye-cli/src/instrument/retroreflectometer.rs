@@ -1,4 +1,5 @@
-//! A material in a retroreflectometer whose light is traced: lamp and receiver have apertures and stand nearby.
+//! A material in a retroreflectometer whose light is traced: lamp and receiver have apertures and stand
+//! nearby.
 
 use anyhow::anyhow;
 use catseye::Model;

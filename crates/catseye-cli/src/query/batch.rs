@@ -10,8 +10,9 @@ use super::input::{Block, Input};
 use super::layout::Layout;
 use super::row::{Row, RowError, Scalar};
 
-/// Blocks of a batch: two batches of them and their answers are what a table takes of memory, however long it is.
-const BLOCKS: usize = 128;
+/// Blocks of a batch: two batches of them and their answers are what a table takes of memory, however long it
+/// is.
+const BLOCKS: usize = 64;
 
 /// Some blocks, with buffers that are used again and again.
 #[derive(Debug, Default)]

@@ -94,8 +94,8 @@ impl Layout {
         out.push(b'\n');
     }
 
-    /// A comma and an object: inputs and answers as numbers, everything else as text; what JSON has no number for as
-    /// text, too.
+    /// A comma and an object: inputs and answers as numbers, everything else as text; what JSON has no number
+    /// for as text, too.
     fn write_json(&self, out: &mut Vec<u8>, record: &ByteRecord, cells: &[Cell]) {
         out.extend_from_slice(b",\n{");
         for &field in &self.carried {

@@ -7,8 +7,8 @@ use crate::{help, report};
 
 /// Print the completions of a shell
 ///
-/// Put them where the shell looks for them: `~/.local/share/bash-completion/completions/catseye` for bash, a folder of `fpath` as
-/// `_catseye` for zsh, `~/.config/fish/completions/catseye.fish` for fish.
+/// Put them where the shell looks for them: `~/.local/share/bash-completion/completions/catseye` for bash, a
+/// folder of `fpath` as `_catseye` for zsh, `~/.config/fish/completions/catseye.fish` for fish.
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::COMPLETIONS)]
 pub(crate) struct Args {

@@ -8,8 +8,8 @@ use crate::query::{Query, TableArgs};
 
 /// Evaluate the BSDF: CSV in, CSV out
 ///
-/// Adds `f_r`, `f_g`, `f_b` [1/sr, cosine not included] and `pdf` [1/sr], the density with which `sample` chooses wi. Both are 0
-/// below the horizon and for roughness 0, a Dirac lobe that only `sample` can meet.
+/// Adds `f_r`, `f_g`, `f_b` [1/sr, cosine not included] and `pdf` [1/sr], the density with which `sample`
+/// chooses wi. Both are 0 below the horizon and for roughness 0, a Dirac lobe that only `sample` can meet.
 #[derive(Debug, clap::Args)]
 #[command(after_help = crate::help::EVAL, after_long_help = crate::help::table(crate::help::EVAL))]
 pub(crate) struct Args {

@@ -25,10 +25,11 @@ const ENTRANCES_DEG: [&str; 5] = ["-4", "5", "20", "30", "40"];
 
 /// Measure a material as a retroreflectometer would
 ///
-/// Answers the rows of a table with the material's value in a column `model`, in the row's unit: R_A in cd/lx/m2 where neither
-/// `quantity` nor `unit` say something else. Observation and entrance angles are those of the CIE goniometer system, with
-/// `beta_2` 0. Colours count as luminance in linear Rec. 709. What the surface emits and the mirror image of the lamp in a smooth coat
-/// are not measured; a lobe of roughness 0, which returns all light in one direction, is an error.
+/// Answers the rows of a table with the material's value in a column `model`, in the row's unit: R_A in
+/// cd/lx/m2 where neither `quantity` nor `unit` say something else. Observation and entrance angles are those
+/// of the CIE goniometer system, with `beta_2` 0. Colours count as luminance in linear Rec. 709. What the
+/// surface emits and the mirror image of the lamp in a smooth coat are not measured; a lobe of roughness 0,
+/// which returns all light in one direction, is an error.
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::measure())]
 pub(crate) struct Args {
@@ -37,7 +38,8 @@ pub(crate) struct Args {
     /// CSV table of the geometries, `-` for standard input [default: those of the standards for sheeting]
     #[arg(long, value_name = "TABLE.csv", conflicts_with = "standard")]
     geometry: Option<PathBuf>,
-    /// Measure at the geometries of a standard or class (see `catseye standards list`), or of a table with values
+    /// Measure at the geometries of a standard or class (see `catseye standards list`), or of a table with
+    /// values
     #[arg(long, value_name = "NAME|TABLE.csv")]
     standard: Option<String>,
     /// What is made of the three colour channels
@@ -46,8 +48,8 @@ pub(crate) struct Args {
     /// Area of the reflector in square metres, for rows of R_I
     #[arg(long, value_name = "AREA")]
     area_m2: Option<f64>,
-    /// Trace the light of an instrument as ASTM E810 describes it (15 m away, apertures of 0.1 degrees, specimen of 20 cm) instead
-    /// of evaluating the BSDF; adds a column `standard_error`
+    /// Trace the light of an instrument as ASTM E810 describes it (15 m away, apertures of 0.1 degrees,
+    /// specimen of 20 cm) instead of evaluating the BSDF; adds a column `standard_error`
     #[arg(long, conflicts_with = "verdict")]
     instrument: bool,
     /// Light paths of each row
@@ -152,7 +154,8 @@ impl Args {
         let all = verdicts(&classes, |quantity, geometry| photometer.measure(quantity, geometry).ok());
         if all.is_empty() {
             bail!(
-                "none of these has limits that can be judged: R_I needs --area-m2, and typical values are no limits"
+                "none of these has limits that can be judged: R_I needs --area-m2, and typical values are no \
+                 limits"
             );
         }
         if self.json {
@@ -178,7 +181,8 @@ fn of_colour(colour: &str) -> anyhow::Result<Vec<StandardClass>> {
     Ok(found)
 }
 
-/// A row as JSON: its cells by their column, numbers where the column is one of numbers, and what was measured.
+/// A row as JSON: its cells by their column, numbers where the column is one of numbers, and what was
+/// measured.
 fn object<'a>(table: &Table, row: &Row, answer: impl Iterator<Item = (&'a str, f64)>) -> Value {
     const NUMBERS: [&str; 4] = ["observation_deg", "entrance_deg", "rotation_deg", "value"];
     let mut object = Map::new();

@@ -19,9 +19,9 @@ use crate::output::Output;
 
 /// Write a material as ASAM `OpenMATERIAL` 3D: its coefficient of retro-reflection, and a table of its BRDF
 ///
-/// `OUT.xomp` gets the one coefficient that the format has room for, in cd/lx/m2, and names in its `sources` the angles that it is
-/// for, which the format has no room for. `OUT_brdf.xompt` beside it gets the BRDF at 555 nm and at the wavelengths of --tint, over
-/// directions that are dense around the retro direction.
+/// `OUT.xomp` gets the one coefficient that the format has room for, in cd/lx/m2, and names in its `sources`
+/// the angles that it is for, which the format has no room for. `OUT_brdf.xompt` beside it gets the BRDF at
+/// 555 nm and at the wavelengths of --tint, over directions that are dense around the retro direction.
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::OPENMATERIAL)]
 pub(crate) struct Args {
@@ -34,10 +34,10 @@ pub(crate) struct Args {
     #[arg(long, value_name = "DEG", default_value_t = Assumption::default().observation_deg)]
     observation_deg: f64,
     /// Entrance angle of the coefficient, in degrees
-    #[arg(long, value_name = "DEG", default_value_t = Assumption::default().entrance_deg, allow_negative_numbers = true)]
+    #[arg(long, value_name = "DEG", default_value_t = Assumption::default().entrance_deg)]
     entrance_deg: f64,
-    /// Light of this wavelength in nanometres comes back so many times as much as visible light, for lidar for instance: 905=0.3.
-    /// May be given several times; colours say nothing of it
+    /// Light of this wavelength in nanometres comes back so many times as much as visible light, for lidar
+    /// for instance: 905=0.3. May be given several times; colours say nothing of it
     #[arg(long = "tint", value_name = "NM=FACTOR")]
     tints: Vec<Tint>,
     /// Print what was written as JSON

@@ -14,9 +14,9 @@ use crate::{help, report};
 
 /// Convert between half-power angle and roughness, and between R_A and tint
 ///
-/// The half-power angle is the observation angle at which R_A has fallen to half of its peak, at entrance angle 0: half of the
-/// full width at half maximum, and what the node `retro_sheeting_surface` takes as `half_power_angle`. Exact for the lobe of
-/// the proposal.
+/// The half-power angle is the observation angle at which R_A has fallen to half of its peak, at entrance
+/// angle 0: half of the full width at half maximum, and what the node `retro_sheeting_surface` takes as
+/// `half_power_angle`. Exact for the lobe of the proposal.
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::ROUGHNESS, arg_required_else_help = true)]
 #[command(group = ArgGroup::new("width").required(true))]
@@ -51,8 +51,8 @@ impl Args {
         let angle_deg = half_power_angle(roughness)?.to_degrees();
         if roughness < DIRAC_ROUGHNESS {
             bail!(
-                "roughness {roughness} is a perfect retro-reflector (all are below {DIRAC_ROUGHNESS}): its R_A is infinite in \
-                 one direction and 0 in all others"
+                "roughness {roughness} is a perfect retro-reflector (all are below {DIRAC_ROUGHNESS}): its \
+                 R_A is infinite in one direction and 0 in all others"
             );
         }
         let tint = self.tint(roughness)?;

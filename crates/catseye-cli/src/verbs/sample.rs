@@ -8,9 +8,9 @@ use crate::query::{Query, TableArgs};
 
 /// Sample the BSDF: CSV in, CSV out
 ///
-/// Adds the direction `wi_x`, `wi_y`, `wi_z` that `u1`, `u2`, `u3` choose, `weight_r`, `weight_g`, `weight_b` = f cos / pdf,
-/// the density `pdf` [1/sr], and `lobe`: single, multiple, dirac (a direction without alternatives; its pdf is given as 1), or
-/// none, with zeros, where wo is below the horizon.
+/// Adds the direction `wi_x`, `wi_y`, `wi_z` that `u1`, `u2`, `u3` choose, `weight_r`, `weight_g`, `weight_b`
+/// = f cos / pdf, the density `pdf` [1/sr], and `lobe`: single, multiple, dirac (a direction without
+/// alternatives; its pdf is given as 1), or none, with zeros, where wo is below the horizon.
 #[derive(Debug, clap::Args)]
 #[command(after_help = crate::help::SAMPLE, after_long_help = crate::help::table(crate::help::SAMPLE))]
 pub(crate) struct Args {

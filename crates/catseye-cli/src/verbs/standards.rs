@@ -10,8 +10,8 @@ use crate::{help, report};
 
 /// List and show the values of standards and products
 ///
-/// Without a verb: the list. A name is STANDARD:CLASS:COLOUR; case and signs don't matter, what is unique may be left out, and
-/// wherever the command takes a name it takes a CSV file in the same columns as well.
+/// Without a verb: the list. A name is STANDARD:CLASS:COLOUR; case and signs don't matter, what is unique may
+/// be left out, and wherever the command takes a name it takes a CSV file in the same columns as well.
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::STANDARDS)]
 pub(crate) struct Args {

@@ -41,7 +41,8 @@ fn a_written_material_has_the_values_that_the_fit_says() {
         for (row, (value, model)) in told["rows"].as_array().unwrap().iter().zip(measured(&found.stdout)) {
             let said = row["model"].as_f64().unwrap();
             assert!((value / row["value"].as_f64().unwrap() - 1.0).abs() < 1e-12);
-            // Six digits in the document, single precision in the renderer, whose coat has a tabulated albedo.
+            // Six digits in the document, single precision in the renderer, whose coat has a tabulated
+            // albedo.
             assert!((model / said - 1.0).abs() < 3e-3, "{options}: {row} but measured {model}");
         }
         let check = bench.catseye("materialx check sheet.mtlx", "");

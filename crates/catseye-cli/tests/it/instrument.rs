@@ -1,4 +1,5 @@
-//! `catseye measure --instrument` agrees with the BSDF, and its rays with the quadrature over its apertures, within 1 %.
+//! `catseye measure --instrument` agrees with the BSDF, and its rays with the quadrature over its apertures,
+//! within 1 %.
 
 use catseye::{AnyLobe, Lobe as _, Model, Params};
 use catseye_materialx::{Closure, Material};

@@ -1,8 +1,9 @@
-//! The data library loads, generates, compiles, evaluates and renders in MaterialX itself, as our own code does.
+//! The data library loads, generates, compiles, evaluates and renders in MaterialX itself, as our own code
+//! does.
 //!
-//! Runs the Python tests of `crates/catseye-materialx/tests/materialx`. They get a virtual environment under the target folder,
-//! made at the first run. Where Python, the packages or a display can't be had they are skipped, and say so; with
-//! `CATSEYE_REQUIRE=all` that is a failure.
+//! Runs the Python tests of `crates/catseye-materialx/tests/materialx`. They get a virtual environment under
+//! the target folder, made at the first run. Where Python, the packages or a display can't be had they are
+//! skipped, and say so; with `CATSEYE_REQUIRE=all` that is a failure.
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};

@@ -4,7 +4,8 @@ use std::fmt::Write as _;
 
 use crate::run::Bench;
 
-/// Kibibytes of address space that a table of any length must do with: the program, its threads and two batches.
+/// Kibibytes of address space that a table of any length must do with: the program, its threads and two
+/// batches.
 const ROOM: u32 = 300_000;
 
 #[test]

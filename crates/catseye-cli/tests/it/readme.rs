@@ -5,7 +5,8 @@ use std::path::Path;
 
 use crate::run::{Bench, alike_within};
 
-/// How far printed numbers may be from those that are shown: another machine's mathematical library rounds otherwise.
+/// How far printed numbers may be from those that are shown: another machine's mathematical library rounds
+/// otherwise.
 const ROUNDING: f64 = 1e-9;
 /// The same behind a fit, which passes a difference in the last digit on.
 const FITTED: f64 = 2e-3;
@@ -29,7 +30,8 @@ fn timeless(text: &str) -> String {
     text.lines().map(without).collect()
 }
 
-/// Runs a document's commands one after the other in one folder, and gives the names of the files that they leave.
+/// Runs a document's commands one after the other in one folder, and gives the names of the files that they
+/// leave.
 ///
 /// Commands for cargo are left to cargo. Where nothing is shown, anything may be printed.
 fn run(document: &str, share: f64) -> Vec<String> {

@@ -1,4 +1,5 @@
-//! `-o -` puts a file on standard output and every word about it on standard error; files keep their permissions.
+//! `-o -` puts a file on standard output and every word about it on standard error; files keep their
+//! permissions.
 
 use std::fs;
 use std::os::unix::fs::PermissionsExt as _;

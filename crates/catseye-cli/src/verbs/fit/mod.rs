@@ -31,16 +31,17 @@ const BRDF_RULE: usize = 7;
 
 /// Fit a material to coefficients of retro-reflection, of a CSV table or of a standard's class
 ///
-/// Finds a sum of retro-reflective lobes with entrance factors, and a diffuse base where a luminance factor is given, whose albedo
-/// is at most 1. The table has the columns `observation_deg`, `entrance_deg` and `value`; `unit` (cd/lx/m2), `quantity` (R_A),
-/// `rotation_deg` (0), `standard`, `class`, `colour` and `source` are optional. `catseye standards list` names the classes that
-/// come with the program.
-/// Without a wish, the simplest model whose worst value is within the tolerance is chosen. Exit code 1 if there is none; then
-/// no material is written.
+/// Finds a sum of retro-reflective lobes with entrance factors, and a diffuse base where a luminance factor
+/// is given, whose albedo is at most 1. The table has the columns `observation_deg`, `entrance_deg` and
+/// `value`; `unit` (cd/lx/m2), `quantity` (R_A), `rotation_deg` (0), `standard`, `class`, `colour` and
+/// `source` are optional. `catseye standards list` names the classes that come with the program. Without a
+/// wish, the simplest model whose worst value is within the tolerance is chosen. Exit code 1 if there is
+/// none; then no material is written.
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::FIT)]
 pub(crate) struct Args {
-    /// CSV file, STANDARD:CLASS:COLOUR, ALTA .dat or MERL .binary of a measured BRDF, or ASAM OpenMATERIAL .xomp
+    /// CSV file, STANDARD:CLASS:COLOUR, ALTA .dat or MERL .binary of a measured BRDF, or ASAM OpenMATERIAL
+    /// .xomp
     #[arg(value_name = "TABLE|STANDARD")]
     subject: String,
     /// Write the material to this .mtlx file; `-` is standard output
@@ -58,7 +59,8 @@ pub(crate) struct Args {
     /// How the strength depends on the entrance angle
     #[arg(long, value_enum, default_value_t)]
     entrance: Entrance,
-    /// The worst error that is accepted, in percent; of a measured BRDF the root mean square [default: 5, of a BRDF 40]
+    /// The worst error that is accepted, in percent; of a measured BRDF the root mean square [default: 5, of
+    /// a BRDF 40]
     #[arg(long, value_name = "PERCENT")]
     tolerance: Option<f64>,
     /// Meet minima as lower limits instead of as values

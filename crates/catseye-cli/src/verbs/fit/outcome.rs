@@ -58,8 +58,9 @@ impl Outcome<'_> {
         let [first, middle, last] = bound.rows.map(|row| self.subject.rows.get(row));
         let (first, middle, last) = (first?, middle?, last?);
         Some(format!(
-            "no sum of lobes comes closer than {} to the values at entrance {} deg and observation {}, {} and {} deg \
-             ({}, {}, {}): they fall slowly at first and then fast, and a sum of lobes does the reverse",
+            "no sum of lobes comes closer than {} to the values at entrance {} deg and observation {}, {} \
+             and {} deg ({}, {}, {}): they fall slowly at first and then fast, and a sum of \
+             lobes does the reverse",
             percent(bound.error),
             first.entrance_deg,
             first.observation_deg,
@@ -86,8 +87,8 @@ impl Outcome<'_> {
         let cost = self.fit.cost_of_view_form(self.observations);
         (cost > 0.0).then(|| {
             format!(
-                "the entrance factors see the viewer's direction, as a node graph must; the reciprocal form would differ \
-                 by at most {}",
+                "the entrance factors see the viewer's direction, as a node graph must; the reciprocal form \
+                 would differ by at most {}",
                 percent(cost)
             )
         })
@@ -160,21 +161,27 @@ impl Outcome<'_> {
             let value = row.value_as_written();
             json!({
                 "observation_deg": row.observation_deg, "entrance_deg": row.entrance_deg,
-                "rotation_deg": row.rotation_deg, "quantity": row.quantity.symbol(), "unit": row.unit.symbol(),
+                "rotation_deg": row.rotation_deg, "quantity": row.quantity.symbol(),
+                "unit": row.unit.symbol(),
                 "value": value, "model": value.map(|value| value * ratio), "ratio": ratio,
             })
         };
-        let beside = self.beside.map(
-            |fit| json!({ "form": describe(&fit.form), "numbers": fit.estimates.len(), "worst": fit.worst, "rms": fit.rms }),
-        );
+        let beside = self.beside.map(|fit| {
+            json!({
+                "form": describe(&fit.form), "numbers": fit.estimates.len(),
+                "worst": fit.worst, "rms": fit.rms,
+            })
+        });
         json!({
             "name": self.subject.name, "title": self.subject.title, "form": describe(&self.fit.form),
-            "accepted": self.fit.acceptable, "tolerance": self.tolerance, "worst": self.fit.worst, "rms": self.fit.rms,
+            "accepted": self.fit.acceptable, "tolerance": self.tolerance,
+            "worst": self.fit.worst, "rms": self.fit.rms,
             "numbers": self.fit.estimates.iter().map(estimate).collect::<Vec<_>>(),
             "rows": self.subject.rows.iter().zip(&self.fit.ratios).map(row).collect::<Vec<_>>(),
             "view_form_cost": self.fit.cost_of_view_form(self.observations),
             "nrmse": self.metrics().map(|m| m.nrmse), "log_rmse": self.metrics().map(|m| m.log_rmse),
-            "remarks": self.subject.remarks, "why_not": self.why_not(), "back_vector": beside, "warnings": self.fit.warnings,
+            "remarks": self.subject.remarks, "why_not": self.why_not(), "back_vector": beside,
+            "warnings": self.fit.warnings,
         })
     }
 }

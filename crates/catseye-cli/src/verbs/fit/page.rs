@@ -10,7 +10,8 @@ use crate::plot::ra::{Point, RaFigure, Request};
 
 use super::outcome::{Outcome, describe, percent, short};
 
-const STYLE: &str = "body{font:15px/1.5 system-ui,sans-serif;color:#22262b;max-width:60rem;margin:2rem auto;padding:0 1rem}\
+const STYLE: &str = "body{font:15px/1.5 system-ui,sans-serif;color:#22262b;max-width:60rem;\
+margin:2rem auto;padding:0 1rem}\
 table{border-collapse:collapse;margin:.5rem 0 1.5rem}th,td{padding:.2rem .8rem;text-align:right;\
 border-bottom:1px solid #dde0e3}th:first-child,td:first-child{text-align:left}th{font-weight:600}\
 .off{color:#b3261e}.good{color:#1b7f3b}svg{max-width:100%;height:auto}";
@@ -20,8 +21,8 @@ pub(crate) fn page(outcome: &Outcome<'_>) -> anyhow::Result<String> {
     let fit = outcome.fit;
     let title = escaped(&outcome.subject.title);
     let mut html = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{title}</title>\n<style>{STYLE}</style>\n\
-         <h1>{title}</h1>\n<p>{}</p>\n",
+        "<!DOCTYPE html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{title}</title>\n\
+         <style>{STYLE}</style>\n<h1>{title}</h1>\n<p>{}</p>\n",
         escaped(&describe(&fit.form))
     );
     let class = if fit.acceptable { "good" } else { "off" };
@@ -111,7 +112,8 @@ fn values(html: &mut String, outcome: &Outcome<'_>) {
     let beside = outcome.beside.map_or("", |_| "<th>back-vector");
     let _ = writeln!(
         html,
-        "<table>\n<tr><th>quantity<th>observation<th>entrance<th>rotation<th>value<th>unit<th>model<th>model/value{beside}</tr>"
+        "<table>\n<tr><th>quantity<th>observation<th>entrance<th>rotation<th>value<th>unit<th>model\
+         <th>model/value{beside}</tr>"
     );
     for (i, (row, ratio)) in outcome.subject.rows.iter().zip(&outcome.fit.ratios).enumerate() {
         let Row { observation_deg, entrance_deg, rotation_deg, .. } = row;
@@ -119,7 +121,8 @@ fn values(html: &mut String, outcome: &Outcome<'_>) {
         let class = if (ratio - 1.0).abs() > outcome.tolerance { " class=\"off\"" } else { "" };
         let _ = write!(
             html,
-            "<tr><td>{}<td>{observation_deg}°<td>{entrance_deg}°<td>{rotation_deg}°<td>{}<td>{}<td>{}<td{class}>{ratio:.3}",
+            "<tr><td>{}<td>{observation_deg}°<td>{entrance_deg}°<td>{rotation_deg}°<td>{}<td>{}<td>{}\
+             <td{class}>{ratio:.3}",
             row.quantity.symbol(),
             short(value),
             escaped(row.unit.symbol()),

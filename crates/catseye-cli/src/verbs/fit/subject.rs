@@ -32,7 +32,8 @@ pub(crate) struct Subject {
 }
 
 impl Subject {
-    /// The material that `name` means: a file, of a kind that its ending tells, or else a class of a standard.
+    /// The material that `name` means: a file, of a kind that its ending tells, or else a class of a
+    /// standard.
     pub(crate) fn find(name: &str, only: Option<&str>, cosine: Cosine) -> anyhow::Result<Self> {
         let path = Path::new(name);
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();

@@ -11,8 +11,9 @@ use crate::options::LibraryArgs;
 
 /// Check documents: every problem with its place
 ///
-/// Looks for unknown nodes and inputs, wrong types, connections that lead nowhere or in circles, missing files and values out
-/// of range, also in nodes that no material uses. One line for each problem, `file:line:column: ...`; exit code 1 if there is any.
+/// Looks for unknown nodes and inputs, wrong types, connections that lead nowhere or in circles, missing
+/// files and values out of range, also in nodes that no material uses. One line for each problem,
+/// `file:line:column: ...`; exit code 1 if there is any.
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::MATERIALX_CHECK)]
 pub(crate) struct Check {

@@ -31,8 +31,9 @@ enum Verb {
 
 /// Write the data library that adds `retro_reflective_bsdf` to MaterialX 1.39
 ///
-/// Writes the folder DIR/catseye, over an earlier one of ours. Add DIR to MaterialX's search path and load the library `catseye`, or
-/// let DIR be MaterialX's own folder `libraries`, where it is found by itself. docs/materialx.md shows both.
+/// Writes the folder DIR/catseye, over an earlier one of ours. Add DIR to MaterialX's search path and load
+/// the library `catseye`, or let DIR be MaterialX's own folder `libraries`, where it is found by itself.
+/// docs/materialx.md shows both.
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::MATERIALX_EXPORT)]
 struct Export {
