@@ -16,6 +16,7 @@ pub enum ScatterMode {
 
 /// A BSDF expression. Inputs have MaterialX's names, units and ranges; colours are linear Rec. 709.
 #[derive(Clone, Debug, PartialEq)]
+#[non_exhaustive]
 pub enum Closure {
     /// Nothing: an unconnected BSDF input.
     None,
@@ -25,8 +26,6 @@ pub enum Closure {
         weight: f32,
         /// The node's parameters, validated.
         params: Params<f32>,
-        /// `tangent_u` in world space where the document gives one.
-        tangent_u: Option<[f32; 3]>,
     },
     /// `oren_nayar_diffuse_bsdf`.
     OrenNayarDiffuse {
@@ -111,7 +110,7 @@ pub enum Closure {
         /// Roughness, in `(0, 1]`.
         roughness: f32,
     },
-    /// A lobe about a normal or tangent of its own: the inputs `normal` and `tangent` of its node.
+    /// A lobe about a normal or tangent of its own: the inputs `normal`, `tangent` and `tangent_u` of its node.
     Oriented {
         /// The lobe.
         closure: Box<Closure>,
@@ -161,4 +160,11 @@ pub struct Surface {
     pub opacity: f32,
     /// Radiance that it emits towards the viewer.
     pub emission: [f32; 3],
+}
+
+impl Default for Surface {
+    /// Opaque, it scatters and emits nothing.
+    fn default() -> Self {
+        Self { bsdf: Closure::None, opacity: 1.0, emission: [0.0; 3] }
+    }
 }

@@ -20,7 +20,7 @@
 //!       </surfacematerial>
 //!     </materialx>"#;
 //! let vest = Document::parse(text, "vest.mtlx")?.material(None)?;
-//! let Closure::RetroReflective { params, .. } = vest.bsdf else { panic!("{vest:?}") };
+//! let Closure::RetroReflective { params, .. } = vest.surface.bsdf else { panic!("{vest:?}") };
 //! assert_eq!(params.roughness_u, 0.05);
 //!
 //! let error = Document::parse(&text.replace("0.05", "shiny"), "vest.mtlx")?.material(None).unwrap_err();
@@ -77,7 +77,7 @@ pub use document::Document;
 pub use error::{Error, Place};
 pub use graph::library::Library;
 pub use graph::look::{Assignment, Look};
-pub use nodes::pattern_categories;
+pub use nodes::{bsdf_categories, pattern_categories};
 pub use output::Output;
 pub use program::ShadingPoint;
 pub use surface::{Material, Patterns};

@@ -7,12 +7,12 @@ use crate::program::{Program, ShadingPoint};
 pub struct Output {
     name: String,
     program: Program,
-    register: usize,
 }
 
 impl Output {
-    pub(crate) fn new(name: String, program: Program, register: u32) -> Self {
-        Self { name, program, register: register as usize }
+    /// The program has one output.
+    pub(crate) fn new(name: String, program: Program) -> Self {
+        Self { name, program }
     }
 
     /// The name of the element.
@@ -24,8 +24,6 @@ impl Output {
     /// The numbers at a point, as computed: components that its type doesn't have are 0, booleans 0 or 1.
     #[must_use]
     pub fn at(&self, point: &ShadingPoint) -> [f32; 4] {
-        let mut registers = Vec::new();
-        self.program.run(point, &mut registers);
-        registers[self.register]
+        self.program.run(point, &mut Vec::new()).get(0)
     }
 }

@@ -36,8 +36,8 @@ fn sphere(model: Model, roughness: f32, exposure_ev: f32) -> Result<Image, Error
     let mut scene = SceneBuilder::new(Camera::perspective(EYE, Vec3::ZERO, Vec3::Y, 0.4));
     let gold = [0.95, 0.8, 0.45];
     let params = Params::isotropic(roughness).with_tint(gold).with_multiscatter_tint(gold);
-    let bsdf = Closure::RetroReflective { weight: 1.0, params, tangent_u: None };
-    let material = scene.materialx(&Material { bsdf, ..Material::default() }, model)?;
+    let bsdf = Closure::RetroReflective { weight: 1.0, params };
+    let material = scene.materialx(&Material::of(bsdf), model)?;
     scene.sphere(Sphere { centre: Vec3::ZERO, radius: 1.0 }, material);
     let lamp = Sphere { centre: Vec3::new(-0.12, 0.12, 2.5), radius: 0.01 };
     scene.light(SphereLight::new(lamp, Vec3::splat(4e4)));

@@ -35,6 +35,12 @@ pub enum Error {
     /// A retro-reflective lobe has a parameter outside its range.
     #[error("retro_reflective_bsdf: {0}")]
     Parameter(#[from] catseye::ParamError),
+    /// A closure that the reader knows and this renderer doesn't.
+    #[error("the closure {closure} can't be rendered")]
+    UnknownClosure {
+        /// The closure.
+        closure: String,
+    },
     /// A material has more lobes than a shading point has room for.
     #[error("the material has {found} lobes, {max} are supported: mix fewer closures")]
     TooManyLobes {

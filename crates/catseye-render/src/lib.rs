@@ -12,9 +12,8 @@
 //! let sheeting = Closure::RetroReflective {
 //!     weight: 1.0,
 //!     params: Params::isotropic(0.05).with_tint([0.8, 0.7, 0.2]),
-//!     tangent_u: None,
 //! };
-//! let material = Material { name: "yellow_sheeting".to_owned(), bsdf: sheeting, ..Material::default() };
+//! let material = Material { name: "yellow_sheeting".to_owned(), ..Material::of(sheeting) };
 //! let scene = Scene::preview(&material, Model::Reciprocal)?;
 //! let settings = RenderSettings { width: 32, height: 18, spp: 1, ..RenderSettings::default() };
 //! let image = render(&scene, &settings, &|_done| ())?;

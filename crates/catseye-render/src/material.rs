@@ -53,9 +53,9 @@ impl MaterialBsdf {
     pub(crate) fn new(material: &Material, model: Model, tint: Vec3) -> Result<Self, Error> {
         let varying = material.patterns.clone().map(|patterns| Varying { patterns, model, tint });
         Ok(Self {
-            bsdf: Bsdf::with_model(&tinted(material.bsdf.clone(), tint), model)?,
-            opacity: material.opacity.clamp(0.0, 1.0),
-            emission: Vec3::from(material.emission),
+            bsdf: Bsdf::with_model(&tinted(material.surface.bsdf.clone(), tint), model)?,
+            opacity: material.surface.opacity.clamp(0.0, 1.0),
+            emission: Vec3::from(material.surface.emission),
             varying,
         })
     }

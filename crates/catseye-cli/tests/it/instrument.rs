@@ -13,7 +13,7 @@ use crate::sheeting::{bench, document};
 const SAMPLES: u32 = 1 << 16;
 
 fn retro(params: Params<f32>) -> Closure {
-    Closure::RetroReflective { weight: 1.0, params, tangent_u: None }
+    Closure::RetroReflective { weight: 1.0, params }
 }
 
 fn lobe(params: Params<f32>) -> AnyLobe<f64> {
@@ -34,7 +34,7 @@ fn rays_and_quadrature_agree() {
         let sum = lobes.iter().map(|params| retro(*params));
         let bsdf =
             sum.reduce(|a, b| Closure::Add { a: Box::new(a), b: Box::new(b) }).expect("a lobe at least");
-        let material = Material { bsdf, ..Material::default() };
+        let material = Material::of(bsdf);
         let lobes: Vec<AnyLobe<f64>> = lobes.into_iter().map(lobe).collect();
         // Unequal apertures, half and a quarter of a degree: the signs of both offsets matter.
         let apertures = Apertures { source: 0.5_f64.to_radians(), receiver: 0.25_f64.to_radians() };

@@ -83,9 +83,8 @@ impl<'a> PatternCompiler<'a> {
                 (quoted(element.require("type")?), "a type of one to four numbers".to_owned());
             return Err(Error::WrongType { at: element.place(), found, expected });
         };
-        let register = self.feed(element, feed, ty)?.register();
-        let (program, places) = self.program.finish(&[register]);
-        Ok(Output::new(name.to_owned(), program, places[&register]))
+        let value = self.feed(element, feed, ty)?;
+        Ok(Output::new(name.to_owned(), self.program.finish(&[value])))
     }
 
     /// What feeds an input; `None` where nothing does.
@@ -166,7 +165,9 @@ impl<'a> PatternCompiler<'a> {
                 found.ok_or_else(|| no_output(node.node.element, name))
             }
             // The connection's type excludes it.
-            Meaning::Closure(_) => Err(Error::NoGraph { at: node.node.element.place() }),
+            Meaning::Lobe(_) | Meaning::Combination(_) | Meaning::Edf(_) | Meaning::Shader(_) => {
+                Err(Error::NoGraph { at: node.node.element.place() })
+            }
         }
     }
 

@@ -11,9 +11,9 @@ use crate::{
     value::{Type, Value},
 };
 
-/// What a node is, once its category and types are resolved.
+/// A BSDF that scatters by itself.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub(crate) enum Lobe {
     RetroReflective,
     OrenNayarDiffuse,
     BurleyDiffuse,
@@ -23,15 +23,30 @@ pub(crate) enum Kind {
     Dielectric,
     Conductor,
     GeneralizedSchlick,
+}
+
+/// A BSDF made of others.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Combination {
     Mix,
     Layer,
     Add,
     Multiply,
-    UniformEdf,
-    SchlickEdf,
-    MixEdf,
-    AddEdf,
-    MultiplyEdf,
+}
+
+/// What an EDF is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Edf {
+    Uniform,
+    GeneralizedSchlick,
+    Mix,
+    Add,
+    Multiply,
+}
+
+/// What makes surfaces of closures.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Shader {
     Surface,
     SurfaceUnlit,
     SurfaceMaterial,
@@ -42,13 +57,25 @@ pub(crate) fn as_written(params: &Params<f32>) -> Params<f64> {
     params.map(|x| x.to_string().parse().unwrap_or(f64::from(x)))
 }
 
-const fn closure(
+const fn lobe(category: &'static str, lobe: Lobe, inputs: &'static [Port]) -> NodeDef {
+    NodeDef { category, types: BSDF, inputs, outputs: &[], meaning: Meaning::Lobe(lobe) }
+}
+
+const fn combination(category: &'static str, combination: Combination, inputs: &'static [Port]) -> NodeDef {
+    NodeDef { category, types: BSDF, inputs, outputs: &[], meaning: Meaning::Combination(combination) }
+}
+
+const fn edf(category: &'static str, edf: Edf, inputs: &'static [Port]) -> NodeDef {
+    NodeDef { category, types: EDF, inputs, outputs: &[], meaning: Meaning::Edf(edf) }
+}
+
+const fn shader(
     category: &'static str,
-    kind: Kind,
+    shader: Shader,
     types: &'static [Type],
     inputs: &'static [Port],
 ) -> NodeDef {
-    NodeDef { category, types, inputs, outputs: &[], meaning: Meaning::Closure(kind) }
+    NodeDef { category, types, inputs, outputs: &[], meaning: Meaning::Shader(shader) }
 }
 
 const fn unit_float(name: &'static str, default: f32) -> Port {
@@ -77,10 +104,9 @@ const SCATTER_MODE: Port = word("scatter_mode", &["R", "T", "RT"]);
 const EXPONENT: Port = float("exponent", 5.0).accepting(Accepts::NotNegative);
 
 pub(super) static NODES: &[NodeDef] = &[
-    closure(
+    lobe(
         "retro_reflective_bsdf",
-        Kind::RetroReflective,
-        BSDF,
+        Lobe::RetroReflective,
         // `catseye::Params::validate` knows the ranges of the four inputs that accept any value.
         &[
             WEIGHT,
@@ -92,10 +118,9 @@ pub(super) static NODES: &[NodeDef] = &[
             NORMAL,
         ],
     ),
-    closure(
+    lobe(
         "oren_nayar_diffuse_bsdf",
-        Kind::OrenNayarDiffuse,
-        BSDF,
+        Lobe::OrenNayarDiffuse,
         &[
             WEIGHT,
             unit_color("color", 0.18),
@@ -104,10 +129,9 @@ pub(super) static NODES: &[NodeDef] = &[
             flag("energy_compensation", false),
         ],
     ),
-    closure(
+    lobe(
         "dielectric_bsdf",
-        Kind::Dielectric,
-        BSDF,
+        Lobe::Dielectric,
         &[
             WEIGHT,
             unit_color("tint", 1.0),
@@ -122,10 +146,9 @@ pub(super) static NODES: &[NodeDef] = &[
             SCATTER_MODE,
         ],
     ),
-    closure(
+    lobe(
         "conductor_bsdf",
-        Kind::Conductor,
-        BSDF,
+        Lobe::Conductor,
         &[
             WEIGHT,
             color3("ior", [0.183, 0.421, 1.373]).accepting(Accepts::NotNegative),
@@ -139,10 +162,9 @@ pub(super) static NODES: &[NodeDef] = &[
             DISTRIBUTION,
         ],
     ),
-    closure(
+    lobe(
         "generalized_schlick_bsdf",
-        Kind::GeneralizedSchlick,
-        BSDF,
+        Lobe::GeneralizedSchlick,
         &[
             WEIGHT,
             unit_color("color0", 1.0),
@@ -159,17 +181,15 @@ pub(super) static NODES: &[NodeDef] = &[
             SCATTER_MODE,
         ],
     ),
-    closure(
+    lobe(
         "burley_diffuse_bsdf",
-        Kind::BurleyDiffuse,
-        BSDF,
+        Lobe::BurleyDiffuse,
         &[WEIGHT, unit_color("color", 0.18), unit_float("roughness", 0.0), NORMAL],
     ),
-    closure("translucent_bsdf", Kind::Translucent, BSDF, &[WEIGHT, unit_color("color", 1.0), NORMAL]),
-    closure(
+    lobe("translucent_bsdf", Lobe::Translucent, &[WEIGHT, unit_color("color", 1.0), NORMAL]),
+    lobe(
         "subsurface_bsdf",
-        Kind::Subsurface,
-        BSDF,
+        Lobe::Subsurface,
         &[
             WEIGHT,
             unit_color("color", 0.18),
@@ -178,10 +198,9 @@ pub(super) static NODES: &[NodeDef] = &[
             NORMAL,
         ],
     ),
-    closure(
+    lobe(
         "sheen_bsdf",
-        Kind::Sheen,
-        BSDF,
+        Lobe::Sheen,
         &[
             WEIGHT,
             unit_color("color", 1.0),
@@ -190,52 +209,42 @@ pub(super) static NODES: &[NodeDef] = &[
             word("mode", &["conty_kulla", "zeltner"]),
         ],
     ),
-    closure(
+    combination(
         "mix",
-        Kind::Mix,
-        BSDF,
+        Combination::Mix,
         &[connection("fg", BSDF), connection("bg", BSDF), unit_float("mix", 0.0)],
     ),
     // The base may be a volume.
-    closure(
+    combination(
         "layer",
-        Kind::Layer,
-        BSDF,
+        Combination::Layer,
         &[connection("top", BSDF), connection("base", &[Type::Bsdf, Type::Vdf])],
     ),
-    closure("add", Kind::Add, BSDF, &[connection("in1", BSDF), connection("in2", BSDF)]),
-    closure(
+    combination("add", Combination::Add, &[connection("in1", BSDF), connection("in2", BSDF)]),
+    combination(
         "multiply",
-        Kind::Multiply,
-        BSDF,
+        Combination::Multiply,
         &[connection("in1", BSDF), of("in2", &[Type::Float, Type::Color3], 1.0).accepting(Accepts::Unit)],
     ),
-    closure("uniform_edf", Kind::UniformEdf, EDF, &[color("color", 1.0).accepting(Accepts::NotNegative)]),
-    closure(
+    edf("uniform_edf", Edf::Uniform, &[color("color", 1.0).accepting(Accepts::NotNegative)]),
+    edf(
         "generalized_schlick_edf",
-        Kind::SchlickEdf,
-        EDF,
+        Edf::GeneralizedSchlick,
         &[unit_color("color0", 1.0), unit_color("color90", 1.0), EXPONENT, connection("base", EDF)],
     ),
-    closure(
-        "mix",
-        Kind::MixEdf,
-        EDF,
-        &[connection("fg", EDF), connection("bg", EDF), unit_float("mix", 0.0)],
-    ),
-    closure("add", Kind::AddEdf, EDF, &[connection("in1", EDF), connection("in2", EDF)]),
-    closure(
+    edf("mix", Edf::Mix, &[connection("fg", EDF), connection("bg", EDF), unit_float("mix", 0.0)]),
+    edf("add", Edf::Add, &[connection("in1", EDF), connection("in2", EDF)]),
+    edf(
         "multiply",
-        Kind::MultiplyEdf,
-        EDF,
+        Edf::Multiply,
         &[
             connection("in1", EDF),
             of("in2", &[Type::Float, Type::Color3], 1.0).accepting(Accepts::NotNegative),
         ],
     ),
-    closure(
+    shader(
         "surface_unlit",
-        Kind::SurfaceUnlit,
+        Shader::SurfaceUnlit,
         SURFACE,
         &[
             float("emission", 1.0).accepting(Accepts::NotNegative),
@@ -245,9 +254,9 @@ pub(super) static NODES: &[NodeDef] = &[
             unit_float("opacity", 1.0),
         ],
     ),
-    closure(
+    shader(
         "surface",
-        Kind::Surface,
+        Shader::Surface,
         SURFACE,
         &[
             connection("bsdf", BSDF),
@@ -256,9 +265,9 @@ pub(super) static NODES: &[NodeDef] = &[
             flag("thin_walled", false).accepting(Accepts::DefaultOnly),
         ],
     ),
-    closure(
+    shader(
         "surfacematerial",
-        Kind::SurfaceMaterial,
+        Shader::SurfaceMaterial,
         &[Type::Material],
         &[
             connection("surfaceshader", SURFACE),

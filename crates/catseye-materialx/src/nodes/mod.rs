@@ -23,7 +23,7 @@ use crate::{
     program::{Expr, Op},
     value::Type,
 };
-use closures::Kind;
+use closures::{Combination, Edf, Lobe, Shader};
 use port::Port;
 
 /// A node definition.
@@ -41,8 +41,11 @@ pub(crate) struct NodeDef {
 /// What a node is.
 #[derive(Clone, Copy, Debug)]
 pub(crate) enum Meaning {
-    /// A BSDF, an EDF, a shader or a material.
-    Closure(Kind),
+    Lobe(Lobe),
+    Combination(Combination),
+    Edf(Edf),
+    /// A surface or a material.
+    Shader(Shader),
     /// An operation on its inputs in their order.
     Op(Op),
     /// A formula.
@@ -93,6 +96,11 @@ pub(crate) fn of_category(category: &str) -> &'static [&'static NodeDef] {
 /// Those of a category and type.
 pub(crate) fn of_type(category: &str, ty: Type) -> impl Iterator<Item = &'static NodeDef> {
     of_category(category).iter().copied().filter(move |def| def.types.contains(&ty))
+}
+
+/// The categories of the BSDFs that are built in.
+pub fn bsdf_categories() -> impl Iterator<Item = &'static str> {
+    closures::NODES.iter().filter(|def| def.types == [Type::Bsdf]).map(|def| def.category)
 }
 
 const fn formula(
@@ -158,7 +166,9 @@ mod tests {
                     def.inputs.iter().map(|port| Operand::of_default(&program, port, ty)).collect();
                 let inputs = Inputs { program: &program, ty, ports: def.inputs, operands };
                 let results = match def.meaning {
-                    Meaning::Closure(_) => continue,
+                    Meaning::Lobe(_) | Meaning::Combination(_) | Meaning::Edf(_) | Meaning::Shader(_) => {
+                        continue;
+                    }
                     // As many sources as the operation has: asserted by the program.
                     Meaning::Op(op) => vec![inputs.op(op, &inputs.numbers().collect::<Vec<_>>())],
                     // Without channels it has no components.

@@ -65,6 +65,21 @@ struct Instruction {
 pub(crate) struct Program {
     instructions: Vec<Instruction>,
     textures: Vec<Arc<Texture>>,
+    /// Registers with the results.
+    outputs: Vec<u32>,
+}
+
+/// The results of a program at a point.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Outputs<'r> {
+    registers: &'r [Lanes],
+    outputs: &'r [u32],
+}
+
+impl Outputs<'_> {
+    pub(crate) fn get(&self, index: usize) -> Lanes {
+        self.registers[self.outputs[index] as usize]
+    }
 }
 
 /// Most sources of one instruction.
@@ -72,7 +87,7 @@ const MAX_SOURCES: usize = 4;
 
 impl Program {
     /// Computes all registers.
-    pub(crate) fn run(&self, point: &ShadingPoint, registers: &mut Vec<Lanes>) {
+    pub(crate) fn run<'r>(&'r self, point: &ShadingPoint, registers: &'r mut Vec<Lanes>) -> Outputs<'r> {
         registers.clear();
         registers.reserve(self.instructions.len());
         for instruction in &self.instructions {
@@ -82,6 +97,12 @@ impl Program {
             }
             registers.push(instruction.op.apply(instruction.width, &sources, point, &self.textures));
         }
+        Outputs { registers, outputs: &self.outputs }
+    }
+
+    /// How many results there are.
+    pub(crate) fn outputs(&self) -> usize {
+        self.outputs.len()
     }
 
     /// Bytes of all its textures.
@@ -132,18 +153,18 @@ impl Assembler {
         }
     }
 
-    /// The program that computes some of the registers, and where in it they are.
-    pub(crate) fn finish(&self, wanted: &[u32]) -> (Program, HashMap<u32, u32>) {
+    /// The program with these results.
+    pub(crate) fn finish(&self, results: &[Expr<'_>]) -> Program {
         let all = &self.state.borrow().program;
         let mut live = vec![false; all.instructions.len()];
-        wanted.iter().for_each(|&register| live[register as usize] = true);
+        results.iter().for_each(|result| live[result.register() as usize] = true);
         for (register, instruction) in all.instructions.iter().enumerate().rev() {
             if live[register] {
                 instruction.sources.iter().for_each(|&source| live[source as usize] = true);
             }
         }
         let mut places = HashMap::new();
-        let mut program = Program { instructions: Vec::new(), textures: all.textures.clone() };
+        let mut program = Program { textures: all.textures.clone(), ..Program::default() };
         for (register, instruction) in all.instructions.iter().enumerate() {
             if live[register] {
                 let mut instruction = instruction.clone();
@@ -152,7 +173,8 @@ impl Assembler {
                 program.instructions.push(instruction);
             }
         }
-        (program, places)
+        program.outputs = results.iter().map(|result| places[&result.register()]).collect();
+        program
     }
 }
 
@@ -196,10 +218,9 @@ mod tests {
         let sum = uv + uv;
         assert_eq!((uv + uv).register(), sum.register());
         assert_eq!(sum.constant(), None);
-        let (program, places) = assembler.finish(&[sum.register()]);
+        let program = assembler.finish(&[sum]);
         assert_eq!(program.instructions.len(), 2);
-        let mut registers = Vec::new();
-        program.run(&ShadingPoint { texcoord: [0.25, 0.5], ..ShadingPoint::default() }, &mut registers);
-        assert_eq!(registers[places[&sum.register()] as usize], [0.5, 1.0, 0.0, 0.0]);
+        let point = ShadingPoint { texcoord: [0.25, 0.5], ..ShadingPoint::default() };
+        assert_eq!(program.run(&point, &mut Vec::new()).get(0), [0.5, 1.0, 0.0, 0.0]);
     }
 }

@@ -128,7 +128,7 @@ fn chain(length: usize, inputs: &[&str]) -> String {
 #[test]
 fn chains_are_bounded() {
     let [material] = read(chain(64, &["in1"]).as_bytes()).unwrap().try_into().unwrap();
-    assert_eq!(depth(&material.bsdf), 64);
+    assert_eq!(depth(&material.surface.bsdf), 64);
     let limit = "more than 64 BSDF nodes in a chain; simplify or split the document";
     assert_refused(&chain(65, &["in1"]), &format!("add \"n64\": {limit}"));
     assert_refused(&chain(50_000, &["in1"]), &format!("add \"n64\": {limit}"));
@@ -256,9 +256,9 @@ fn check(bytes: &[u8]) -> Result<(), TestCaseError> {
         Ok(materials) => {
             prop_assert!(!materials.is_empty());
             for material in materials {
-                prop_assert!(depth(&material.bsdf) <= 64);
-                prop_assert!((0.0..=1.0).contains(&material.opacity));
-                check_ranges(&material.bsdf)?;
+                prop_assert!(depth(&material.surface.bsdf) <= 64);
+                prop_assert!((0.0..=1.0).contains(&material.surface.opacity));
+                check_ranges(&material.surface.bsdf)?;
             }
         }
         Err(error) => {

@@ -37,10 +37,7 @@ fn color(nodes: &str) -> [f32; 3] {
         position_object: [1.0, 2.0, 3.0],
         ..ShadingPoint::default()
     };
-    match &material.patterns {
-        Some(patterns) => color_of(&patterns.at(&point).bsdf),
-        None => color_of(&material.bsdf),
-    }
+    color_of(&material.at(&point).bsdf)
 }
 
 fn assert_near(actual: [f32; 3], expected: [f32; 3], case: &str) {
@@ -199,7 +196,7 @@ fn a_normal_map_turns_the_lobe_and_the_neutral_one_keeps_it() {
         );
         let input = r#"<input name="normal" type="vector3" nodename="n" />"#;
         let text = single("dielectric_bsdf", input).replace("</materialx>", &map);
-        let Closure::Oriented { normal: Some(normal), .. } = parse(&text).bsdf else { panic!() };
+        let Closure::Oriented { normal: Some(normal), .. } = parse(&text).surface.bsdf else { panic!() };
         assert_near(normal, expected, value);
     }
 }
@@ -208,7 +205,7 @@ fn a_normal_map_turns_the_lobe_and_the_neutral_one_keeps_it() {
 fn what_does_not_vary_is_a_constant_and_out_of_range_results_are_clamped() {
     let material = colored(&one("multiply", &[("in1", "color3", "4, 0.5, -1"), ("in2", "float", "0.5")]));
     assert!(material.patterns.is_none());
-    assert_eq!(color_of(&material.bsdf), [1.0, 0.25, 0.0]);
+    assert_eq!(color_of(&material.surface.bsdf), [1.0, 0.25, 0.0]);
     assert!(colored(&one("multiply", &[("in1", "color3", "@uuu")])).patterns.is_some());
 }
 
@@ -221,7 +218,7 @@ fn interfaces_of_nested_nodegraphs() {
           <add name="a" type="color3"><input name="in1" type="color3" nodegraph="inner" output="out" /><input name="in2" type="color3" interfacename="tone" /></add>
           <output name="out" type="color3" nodename="a" /></nodegraph>
         <oren_nayar_diffuse_bsdf name="bsdf" type="BSDF"><input name="color" type="color3" nodegraph="outer" output="out" /></oren_nayar_diffuse_bsdf>"#;
-    assert_near(color_of(&parse(&document(nodes)).bsdf), [0.3, 0.6, 0.9], "nested");
+    assert_near(color_of(&parse(&document(nodes)).surface.bsdf), [0.3, 0.6, 0.9], "nested");
 }
 
 #[test]
@@ -233,7 +230,7 @@ fn a_document_can_define_nodes_of_its_own() {
           <oren_nayar_diffuse_bsdf name="d" type="BSDF"><input name="color" type="color3" nodename="c" /></oren_nayar_diffuse_bsdf>
           <output name="out" type="BSDF" nodename="d" /></nodegraph>
         <tinted name="bsdf" type="BSDF"><input name="tint" type="color3" value="1, 0.5, 0" /></tinted>"#;
-    assert_near(color_of(&parse(&document(nodes)).bsdf), [0.5, 0.25, 0.0], "tinted");
+    assert_near(color_of(&parse(&document(nodes)).surface.bsdf), [0.5, 0.25, 0.0], "tinted");
 }
 
 #[test]
@@ -247,7 +244,7 @@ fn emission_opacity_and_looks() {
         <look name="l"><materialassign name="a" material="m" geom="/car, /bike/*" /></look></materialx>"#;
     let document = Document::parse(text, "test.mtlx").unwrap();
     let material = document.material(None).unwrap();
-    assert_eq!((material.emission, material.opacity), ([1.0, 2.0, 3.0], 0.25));
+    assert_eq!((material.surface.emission, material.surface.opacity), ([1.0, 2.0, 3.0], 0.25));
     let looks = document.looks().unwrap();
     assert_eq!(looks[0].material("/bike/wheel/rim"), Some("m"));
     assert_eq!(looks[0].material("/boat"), None);

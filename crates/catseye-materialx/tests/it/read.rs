@@ -3,7 +3,7 @@
 use std::{collections::BTreeSet, path::PathBuf};
 
 use catseye::Params;
-use catseye_materialx::{Closure, Document, Material, ScatterMode};
+use catseye_materialx::{Closure, Document, Material, ScatterMode, Surface};
 
 use crate::support::{document, single};
 
@@ -18,7 +18,11 @@ fn parse(text: &str) -> Material {
 }
 
 fn retro(params: Params<f32>) -> Closure {
-    Closure::RetroReflective { weight: 1.0, params, tangent_u: None }
+    Closure::RetroReflective { weight: 1.0, params }
+}
+
+fn turned(lobe: Closure, tangent: [f32; 3]) -> Closure {
+    Closure::Oriented { closure: Box::new(lobe), normal: None, tangent: Some(tangent) }
 }
 
 fn diffuse(color: [f32; 3], roughness: f32) -> Closure {
@@ -58,7 +62,7 @@ fn anisotropic_tape() -> Closure {
     let yellow = [0.97, 0.87, 0.28].map(linear_from_srgb);
     let green = [0.87, 0.88, 0.25].map(linear_from_srgb);
     let params = Params::anisotropic(0.03, 0.3).with_tint(yellow).with_multiscatter_tint(yellow);
-    let grooves = Closure::RetroReflective { weight: 1.0, params, tangent_u: Some([0.0, 1.0, 0.0]) };
+    let grooves = turned(retro(params), [0.0, 1.0, 0.0]);
     let woven = Closure::Mix {
         foreground: Box::new(grooves),
         background: Box::new(diffuse(green, 0.5)),
@@ -83,7 +87,7 @@ fn every_document_of_the_materials_folder() {
         let material = Document::load(path).and_then(|document| document.material(None)).unwrap();
         // Of what varies over the surface this is its look head on.
         let shown = Material { patterns: None, ..material };
-        assert_eq!(shown, Material { name: name.into(), bsdf, ..Material::default() });
+        assert_eq!(shown, Material { name: name.into(), ..Material::of(bsdf) });
     }
     let on_disk = std::fs::read_dir(materials_folder()).unwrap().map(|entry| entry.unwrap().path());
     let on_disk = on_disk.filter(|path| path.extension().is_some_and(|extension| extension == "mtlx"));
@@ -144,7 +148,7 @@ fn defaults_are_those_of_the_node_definitions() {
         ("multiply", Closure::Multiply { closure: Box::new(Closure::None), factor: [1.0; 3] }),
     ];
     for (category, expected) in cases {
-        assert_eq!(parse(&single(category, "")).bsdf, expected, "{category}");
+        assert_eq!(parse(&single(category, "")).surface.bsdf, expected, "{category}");
     }
 }
 
@@ -165,7 +169,7 @@ fn schlick(retroreflective: bool, scatter_mode: ScatterMode) -> Closure {
 fn three_microfacet_lobes_can_be_retroreflective() {
     let input = r#"<input name="retroreflective" type="boolean" value="true" />"#;
     for category in ["dielectric_bsdf", "conductor_bsdf", "generalized_schlick_bsdf"] {
-        let sent_back = match parse(&single(category, input)).bsdf {
+        let sent_back = match parse(&single(category, input)).surface.bsdf {
             Closure::Dielectric { retroreflective, .. }
             | Closure::Conductor { retroreflective, .. }
             | Closure::GeneralizedSchlick { retroreflective, .. } => retroreflective,
@@ -183,7 +187,7 @@ fn a_normal_of_its_own_orients_a_lobe() {
         normal: Some([0.0, 1.0, 0.0]),
         tangent: None,
     };
-    assert_eq!(parse(&single("translucent_bsdf", input)).bsdf, expected);
+    assert_eq!(parse(&single("translucent_bsdf", input)).surface.bsdf, expected);
 }
 
 #[test]
@@ -198,8 +202,8 @@ fn every_input_of_retro_reflective_bsdf() {
         <input name="normal" type="vector3" />"#;
     let params =
         Params::anisotropic(0.1, 0.2).with_tint([0.1, 0.2, 0.3]).with_multiscatter_tint([0.4, 0.5, 0.6]);
-    let expected = Closure::RetroReflective { weight: 0.5, params, tangent_u: Some([0.0, 0.6, 0.8]) };
-    assert_eq!(parse(&single("retro_reflective_bsdf", inputs)).bsdf, expected);
+    let expected = turned(Closure::RetroReflective { weight: 0.5, params }, [0.0, 0.6, 0.8]);
+    assert_eq!(parse(&single("retro_reflective_bsdf", inputs)).surface.bsdf, expected);
 }
 
 #[test]
@@ -216,7 +220,7 @@ fn roughness_has_no_upper_limit_and_a_negative_second_one_means_the_first() {
             r#"<input name="roughness_u" type="float" value="{u}" /><input name="roughness_v" type="float" value="{v}" />"#
         );
         let expected = retro(Params::isotropic(roughness_u).with_roughness_v(roughness_v));
-        assert_eq!(parse(&single("retro_reflective_bsdf", &inputs)).bsdf, expected, "{u} {v}");
+        assert_eq!(parse(&single("retro_reflective_bsdf", &inputs)).surface.bsdf, expected, "{u} {v}");
     }
 }
 
@@ -244,7 +248,7 @@ fn every_input_of_dielectric_bsdf() {
             retroreflective: false,
             scatter_mode,
         };
-        assert_eq!(parse(&single("dielectric_bsdf", &inputs)).bsdf, expected);
+        assert_eq!(parse(&single("dielectric_bsdf", &inputs)).surface.bsdf, expected);
     }
 }
 
@@ -253,7 +257,7 @@ fn multiply_takes_a_float_or_a_colour() {
     for (ty, value, factor) in [("float", "0.5", [0.5; 3]), ("color3", "0.1, 0.2, 0.3", [0.1, 0.2, 0.3])] {
         let inputs = format!(r#"<input name="in2" type="{ty}" value="{value}" />"#);
         let expected = Closure::Multiply { closure: Box::new(Closure::None), factor };
-        assert_eq!(parse(&single("multiply", &inputs)).bsdf, expected);
+        assert_eq!(parse(&single("multiply", &inputs)).surface.bsdf, expected);
     }
 }
 
@@ -273,7 +277,9 @@ fn colours_are_converted_from_the_nearest_colour_space() {
             format!(r#"<input name="color" type="color3" value="0.5, 0.04, 1" colorspace="{of_input}" />"#);
         let text = single("oren_nayar_diffuse_bsdf", &input)
             .replace("<materialx", &format!("<materialx colorspace=\"{of_document}\""));
-        let Closure::OrenNayarDiffuse { color: actual, .. } = parse(&text).bsdf else { panic!("{text}") };
+        let Closure::OrenNayarDiffuse { color: actual, .. } = parse(&text).surface.bsdf else {
+            panic!("{text}")
+        };
         for (actual, expected) in actual.into_iter().zip(color) {
             assert!((actual - expected).abs() < 1e-6, "{of_document:?} {of_input:?}: {actual} {expected}");
         }
@@ -295,7 +301,7 @@ fn a_nodegraph_has_its_own_names() {
         );
         let inner = Closure::Add { a: Box::new(retro(Params::isotropic(0.25))), b: Box::new(Closure::None) };
         let expected = Closure::Add { a: Box::new(Closure::None), b: Box::new(inner) };
-        assert_eq!(parse(&document(&node)).bsdf, expected, "{connection}");
+        assert_eq!(parse(&document(&node)).surface.bsdf, expected, "{connection}");
     }
 }
 
@@ -304,7 +310,7 @@ fn an_output_of_the_document_can_be_connected() {
     let nodes = r#"<layer name="bsdf" type="BSDF"><input name="base" type="BSDF" output="o" /></layer>
         <output name="o" type="BSDF" nodename="d" /><dielectric_bsdf name="d" type="BSDF" />"#;
     let expected = Closure::Layer { top: Box::new(Closure::None), base: Box::new(dielectric(1.5, 0.05)) };
-    assert_eq!(parse(&document(nodes)).bsdf, expected);
+    assert_eq!(parse(&document(nodes)).surface.bsdf, expected);
 }
 
 #[test]
@@ -315,7 +321,7 @@ fn a_connection_is_preferred_to_a_value_and_empty_counts_as_absent() {
         </add>
         <dielectric_bsdf name="d" type="BSDF"><input name="ior" type="float" value="" /></dielectric_bsdf>"#;
     let expected = Closure::Add { a: Box::new(dielectric(1.5, 0.05)), b: Box::new(Closure::None) };
-    assert_eq!(parse(&document(nodes)).bsdf, expected);
+    assert_eq!(parse(&document(nodes)).surface.bsdf, expected);
 }
 
 #[test]
@@ -324,7 +330,7 @@ fn a_node_may_have_several_users() {
           <input name="in1" type="BSDF" nodename="d" /><input name="in2" type="BSDF" nodename="d" />
         </add><dielectric_bsdf name="d" type="BSDF" />"#;
     let d = Box::new(dielectric(1.5, 0.05));
-    assert_eq!(parse(&document(nodes)).bsdf, Closure::Add { a: d.clone(), b: d });
+    assert_eq!(parse(&document(nodes)).surface.bsdf, Closure::Add { a: d.clone(), b: d });
 }
 
 #[test]
@@ -338,7 +344,7 @@ fn both_versions_and_the_ways_files_are_written() {
         text.replace("<surface ", "<x:note xmlns:x=\"http://example.org/tool\" name=\"bsdf\" /><surface "),
     ];
     for variant in variants {
-        assert_eq!(parse(&variant).bsdf, dielectric(1.5, 0.05), "{variant}");
+        assert_eq!(parse(&variant).surface.bsdf, dielectric(1.5, 0.05), "{variant}");
     }
 }
 
@@ -350,14 +356,15 @@ fn materials_come_in_order_and_by_name() {
     let document = Document::parse(&document(other), "test.mtlx").unwrap();
     let names: Vec<_> = document.materials().unwrap().into_iter().map(|material| material.name).collect();
     assert_eq!(names, ["a", "m"]);
-    let expected = Material { name: "a".into(), opacity: 0.5, ..Material::default() };
+    let surface = Surface { opacity: 0.5, ..Surface::default() };
+    let expected = Material { name: "a".into(), surface, ..Material::default() };
     assert_eq!(document.material(Some("a")).unwrap(), expected);
-    assert_eq!(document.material(Some("m")).unwrap().bsdf, dielectric(1.5, 0.05));
+    assert_eq!(document.material(Some("m")).unwrap().surface.bsdf, dielectric(1.5, 0.05));
 }
 
 #[test]
 fn only_what_a_material_refers_to_is_checked() {
     let nodes = r#"<dielectric_bsdf name="bsdf" type="BSDF" />
         <hair_bsdf name="unused" type="BSDF" /><look name="l"><materialassign name="a" material="m" geom="/" /></look>"#;
-    assert_eq!(parse(&document(nodes)).bsdf, dielectric(1.5, 0.05));
+    assert_eq!(parse(&document(nodes)).surface.bsdf, dielectric(1.5, 0.05));
 }

@@ -43,15 +43,15 @@ fn closures_of_1_38_are_those_of_materialx_upgrade() {
     let (old, new) = (materials("closures.1.38.mtlx"), materials("closures.1.39.mtlx"));
     assert_eq!(old.len(), 2);
     for (old, new) in old.iter().zip(&new) {
-        assert_eq!((&old.name, &old.bsdf), (&new.name, &new.bsdf));
+        assert_eq!((&old.name, &old.surface.bsdf), (&new.name, &new.surface.bsdf));
         assert_eq!(old.warnings.len(), new.warnings.len());
     }
-    assert!(matches!(old[0].bsdf, Closure::Mix { .. }), "{:?}", old[0].bsdf);
+    assert!(matches!(old[0].surface.bsdf, Closure::Mix { .. }), "{:?}", old[0].surface.bsdf);
     assert!(old[0].warnings.iter().any(|warning| warning.to_string().contains("thin films")));
 }
 
 fn material(bytes: &[u8]) -> Result<Closure, Error> {
-    Ok(Document::from_bytes(bytes, "m.mtlx")?.material(None)?.bsdf)
+    Ok(Document::from_bytes(bytes, "m.mtlx")?.material(None)?.surface.bsdf)
 }
 
 #[test]

@@ -32,7 +32,7 @@ impl Finish {
     }
 
     fn of(bsdf: Closure, model: Model) -> Self {
-        Self { white: Material { bsdf, ..Material::default() }, model }
+        Self { white: Material::of(bsdf), model }
     }
 
     /// Matte white paint.
@@ -49,11 +49,8 @@ impl Finish {
 /// Sheeting with a wide lobe: seen from 1.4 degrees beside the lamps it still returns some thirty times the light
 /// of white paint.
 fn beaded_sheeting() -> Closure {
-    let retro = Closure::RetroReflective {
-        weight: 1.0,
-        params: Params::isotropic(0.02).with_tint([0.04; 3]),
-        tangent_u: None,
-    };
+    let retro =
+        Closure::RetroReflective { weight: 1.0, params: Params::isotropic(0.02).with_tint([0.04; 3]) };
     Closure::Layer { top: Box::new(retro), base: Box::new(diffuse(0.35)) }
 }
 

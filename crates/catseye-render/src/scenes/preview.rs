@@ -26,7 +26,7 @@ const INDIRECT_LIMIT: f32 = 0.6;
 
 pub(crate) fn scene(materials: [&Material; 2], model: Model) -> Result<Scene, Error> {
     let mut builder = SceneBuilder::new(Camera::perspective(EYE, TARGET, Vec3::Y, 0.235));
-    let bsdfs = materials.map(|material| Bsdf::with_model(&material.bsdf, model));
+    let bsdfs = materials.map(|material| Bsdf::with_model(&material.surface.bsdf, model));
     let headlamp = headlamp(&bsdfs.into_iter().collect::<Result<Vec<_>, _>>()?);
     let [sphere, sheet] = materials.map(|material| builder.materialx(material, model));
     let ground = builder.material(Bsdf::matte(Vec3::splat(0.16)));

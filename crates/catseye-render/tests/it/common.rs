@@ -8,7 +8,7 @@ use glam::Vec3;
 pub(crate) const SMALL: [usize; 2] = [16, 16];
 
 pub(crate) fn retro(params: Params<f32>) -> Closure {
-    Closure::RetroReflective { weight: 1.0, params, tangent_u: None }
+    Closure::RetroReflective { weight: 1.0, params }
 }
 
 pub(crate) fn diffuse(color: f32, roughness: f32) -> Closure {
@@ -55,10 +55,10 @@ pub(crate) fn zoo() -> Vec<(&'static str, Closure)> {
         ("anisotropic retro", retro(Params::anisotropic(0.5, 0.1))),
         (
             "turned retro",
-            Closure::RetroReflective {
-                weight: 1.0,
-                params: Params::anisotropic(0.6, 0.2),
-                tangent_u: Some([0.5, 0.8, 0.1]),
+            Closure::Oriented {
+                closure: Box::new(retro(Params::anisotropic(0.6, 0.2))),
+                normal: None,
+                tangent: Some([0.5, 0.8, 0.1]),
             },
         ),
         ("reflecting dielectric", dielectric([0.3, 0.1], ScatterMode::Reflect)),

@@ -54,7 +54,7 @@ fn case(
     closure: Closure,
     bsdf: impl Fn(Vec3<f64>, Vec3<f64>) -> f64 + Sync + 'static,
 ) -> Case {
-    Case { name, material: Material { bsdf: closure, ..Material::default() }, bsdf: Box::new(bsdf) }
+    Case { name, material: Material::of(closure), bsdf: Box::new(bsdf) }
 }
 
 /// A lobe whose tint is the cube of the viewer's cosine.
@@ -204,7 +204,7 @@ fn the_standard_error_is_what_other_seeds_scatter() {
 #[test]
 fn readings_weigh_the_channels_and_r_l_divides_by_the_viewing_cosine() {
     let closure = retro(Params::isotropic(0.02).with_tint([0.1, 0.2, 0.4]));
-    let material = Material { bsdf: closure, ..Material::default() };
+    let material = Material::of(closure);
     let directions = directions([0.5, 30.0, 0.0]);
     let reading = SMALL.measure(&material, Model::Reciprocal, directions, 1 << 10, 0).expect("legal");
     let unit = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]];

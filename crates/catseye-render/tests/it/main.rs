@@ -1,5 +1,6 @@
 //! What the crate promises, a file for each promise.
 
+mod closures;
 mod common;
 mod determinism;
 mod encode;

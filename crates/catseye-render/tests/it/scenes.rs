@@ -11,7 +11,7 @@ const SIZE: [usize; 2] = [96, 54];
 const SIGNS: [[usize; 2]; 2] = [[15, 12], [80, 12]];
 
 fn material(bsdf: Closure) -> Material {
-    Material { name: "test".to_owned(), bsdf, ..Material::default() }
+    Material { name: "test".to_owned(), ..Material::of(bsdf) }
 }
 
 fn luminance(image: &Image, [x, y]: [usize; 2]) -> f32 {

@@ -11,8 +11,8 @@ fn directions(observation_deg: f64, entrance_deg: f64) -> [Vec3<f64>; 2] {
 
 fn retro(roughness: f32) -> Material {
     let params = Params::isotropic(roughness).with_tint([0.5, 0.25, 0.125]);
-    let bsdf = Closure::RetroReflective { weight: 1.0, params, tangent_u: None };
-    Material { name: "sheeting".to_owned(), bsdf, ..Material::default() }
+    let bsdf = Closure::RetroReflective { weight: 1.0, params };
+    Material { name: "sheeting".to_owned(), ..Material::of(bsdf) }
 }
 
 #[test]
