@@ -137,8 +137,8 @@ Example:
 /// Example of `catseye materialx`.
 pub(crate) const MATERIALX: &str = "\
 Example:
-  $ catseye materialx export libraries
-  wrote libraries/catseye";
+  $ catseye materialx export nodes
+  wrote nodes/libraries/catseye";
 
 /// Example of `catseye materialx export`.
 pub(crate) const MATERIALX_EXPORT: &str = MATERIALX;

@@ -124,6 +124,11 @@ fn nodes_are_those_of_materialx() {
 }
 
 #[test]
+fn other_hosts_read_it() {
+    run("test_hosts.py");
+}
+
+#[test]
 fn values_match_the_oracle() {
     run("test_values.py");
 }

@@ -50,7 +50,7 @@ fn quiet_leaves_results_and_errors() {
     for (args, stdout) in [
         ("render --size 8x8 --spp 1 -q", ""),
         ("-q plot lobe", ""),
-        ("materialx export libraries --quiet", ""),
+        ("materialx export nodes --quiet", ""),
         ("roughness --roughness 1 --tint 0.5 -q | head -n 1", "roughness         1\n"),
     ] {
         let outcome = bench.shell(&format!("catseye {args}"));
@@ -66,14 +66,15 @@ fn quiet_leaves_results_and_errors() {
 #[test]
 fn an_export_to_a_full_disk_leaves_nothing_half() {
     let bench = Bench::new();
-    bench.catseye("materialx export libraries", "");
-    let before = fs::read(bench.path("libraries/catseye/catseye_defs.mtlx")).unwrap();
+    bench.catseye("materialx export nodes", "");
+    let before = fs::read(bench.path("nodes/libraries/catseye/catseye_defs.mtlx")).unwrap();
     // A limit of two blocks on the size of every file stands for the full disk.
-    let outcome = bench.shell("trap '' XFSZ; ulimit -f 2; catseye materialx export libraries");
+    let outcome = bench.shell("trap '' XFSZ; ulimit -f 2; catseye materialx export nodes");
     assert_eq!(outcome.code, 1, "{}", outcome.stdout);
     assert!(outcome.stderr.contains("can't be written"), "{}", outcome.stderr);
-    assert_eq!(fs::read(bench.path("libraries/catseye/catseye_defs.mtlx")).unwrap(), before);
-    let left: Vec<_> =
-        fs::read_dir(bench.path("libraries")).unwrap().map(|e| e.unwrap().file_name()).collect();
-    assert_eq!(left, ["catseye"], "no temporary files");
+    assert_eq!(fs::read(bench.path("nodes/libraries/catseye/catseye_defs.mtlx")).unwrap(), before);
+    let mut left: Vec<_> =
+        fs::read_dir(bench.path("nodes")).unwrap().map(|e| e.unwrap().file_name()).collect();
+    left.sort();
+    assert_eq!(left, ["libraries", "resources"], "no temporary files");
 }

@@ -7,7 +7,7 @@ use std::{
 };
 
 use crate::{
-    data_library::FILES,
+    data_library::definitions,
     error::Error,
     text::{
         element::Element,
@@ -23,9 +23,7 @@ const MAX_DEPTH: usize = 6;
 
 /// The definitions of our own data library that are graphs: `retro_sheeting_surface`. Test `read` reads a document with it.
 static OWN: LazyLock<Vec<Element>> = LazyLock::new(|| {
-    // Those in folders are for one shading language each.
-    let files = FILES.iter().filter(|(path, _)| !path.contains('/'));
-    files.flat_map(|(name, text)| parse_bytes(text.as_bytes(), name, None)).collect()
+    definitions().flat_map(|(name, text)| parse_bytes(text.as_bytes(), name, None)).collect()
 });
 
 /// The folders that may be read, and the node definitions in the MaterialX libraries among them.

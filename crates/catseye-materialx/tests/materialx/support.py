@@ -20,6 +20,8 @@ CRATE = HERE.parents[1]
 ROOT = CRATE.parents[1]
 LIBRARIES = CRATE / "libraries"
 MATERIALS = ROOT / "materials"
+RESOURCES = CRATE / "resources"
+PRESETS = RESOURCES / "Materials/Examples/RetroSheeting/retro_sheeting_presets.mtlx"
 EVIDENCE = pathlib.Path(os.environ.get("CATSEYE_EVIDENCE", ROOT / "target/evidence/materialx"))
 REQUIRE_ALL = os.environ.get("CATSEYE_REQUIRE") == "all"
 
@@ -38,11 +40,9 @@ ENVIRONMENTS = ["NONE", "PREFILTER", "FIS"]
 
 
 def search_path(*roots):
-    """The folders that hold MaterialX's `libraries`, the installed one unless others are given, and ours."""
-    path = mx.getDefaultDataSearchPath()
-    if roots:
-        path = mx.FileSearchPath()
-    for root in (*roots, LIBRARIES):
+    """The roots that hold a folder `libraries`: the installed MaterialX, unless others are given, and this crate."""
+    path = mx.FileSearchPath() if roots else mx.getDefaultDataSearchPath()
+    for root in (*roots, CRATE):
         path.append(mx.FilePath(str(root)))
     return path
 
@@ -52,7 +52,7 @@ def data_library(path=None):
     path = path or search_path()
     library = mx.createDocument()
     mx.loadLibraries(mx.getDefaultDataLibraryFolders(), path, library)
-    mx.loadLibraries(["catseye"], path, library)
+    mx.loadLibraries(["libraries/catseye"], path, library)
     return library
 
 
@@ -120,8 +120,8 @@ def material(document):
     return element
 
 
-def generate(document, target, environment="FIS", lights=None, path=None, prefix="libraries"):
-    """The generated shader. MaterialX looks its own files up as `prefix`/..., on the search path."""
+def generate(document, target, environment="FIS", lights=None, path=None, prefix="libraries", element=None):
+    """The generated shader of the document's only material, or of an element. MaterialX looks its own files up as `prefix`/..., on the search path."""
     generator = GENERATORS[target].create()
     colors = gen_shader.DefaultColorManagementSystem.create(generator.getTarget())
     colors.loadLibrary(document.getDataLibrary())
@@ -136,7 +136,7 @@ def generate(document, target, environment="FIS", lights=None, path=None, prefix
     options.targetColorSpaceOverride = "lin_rec709"
     if lights is not None:
         lights(context, generator)
-    return generator.generate("material", material(document), context)
+    return generator.generate("material", element or material(document), context)
 
 
 def connect_constants(document):

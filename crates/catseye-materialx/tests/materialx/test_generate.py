@@ -4,8 +4,10 @@ import pathlib
 import tempfile
 import unittest
 
-from support import (ENVIRONMENTS, GENERATORS, HARDWARE, MATERIALS, data_library, documents, generate, installed, missing, read,
-                     report, run, search_path, stages, tool, with_upstream_environment)
+import MaterialX.PyMaterialXGenShader as gen_shader
+
+from support import (ENVIRONMENTS, GENERATORS, HARDWARE, MATERIALS, RESOURCES, data_library, documents, generate, installed,
+                     missing, read, report, run, search_path, stages, tool, with_upstream_environment)
 
 
 class Generate(unittest.TestCase):
@@ -78,6 +80,20 @@ class Generate(unittest.TestCase):
             count += self.accept(["msl"], self.metal, **one)
             count += self.accept(["slang"], self.slang(), **one)
             report(f"upstream form: {count} stages are accepted")
+
+    def test_the_exported_documents_compile(self):
+        """The presets, and the document for MaterialX's TestSuite."""
+        compiler, count = tool(self, "glslangValidator"), 0
+        for file in RESOURCES.rglob("*.mtlx"):
+            document = read(file, self.library)
+            for element in gen_shader.findRenderableElements(document):
+                for stage, source in stages(generate(document, "glsl", element=element)).items():
+                    out = pathlib.Path(self.folder.name) / f"exported.{ {'vertex': 'vert', 'pixel': 'frag'}[stage]}"
+                    out.write_text(source)
+                    output, good = run(compiler, out)
+                    self.assertTrue(good, f"{file.stem} {element.getNamePath()}: {output}")
+                    count += 1
+        report(f"glslangValidator accepts {count} stages of the exported documents")
 
     def test_glsl_compiles(self):
         compiler = tool(self, "glslangValidator")

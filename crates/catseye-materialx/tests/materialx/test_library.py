@@ -1,11 +1,14 @@
 """The library loads beside MaterialX's own, validates, and has for every target what the documentation says."""
 
+import csv
+import io
+import os
 import re
 import unittest
 
 import MaterialX as mx
 
-from support import LIBRARIES, ROOT, data_library, documents, read, stock
+from support import LIBRARIES, PRESETS, RESOURCES, ROOT, data_library, documents, missing, read, run, stock
 
 TARGETS = ["genglsl", "essl", "genmsl", "genslang", "genosl", "genmdl"]
 
@@ -24,10 +27,26 @@ class Library(unittest.TestCase):
         self.assertTrue(valid, message)
 
     def test_documents_validate(self):
-        for path in documents():
+        for path in [*documents(), *RESOURCES.rglob("*.mtlx")]:
             with self.subTest(path.name):
                 valid, message = read(path, self.library).validate()
                 self.assertTrue(valid, message)
+
+    def test_the_presets_meet_their_classes(self):
+        """At least the coefficient of retro-reflection that the class in the preset's doc asks for, at each of its angles."""
+        if "CATSEYE" not in os.environ:
+            missing(self, "CATSEYE does not name the catseye command")
+        presets = [node for node in read(PRESETS, self.library).getNodes() if node.getType() == "material"]
+        self.assertGreater(len(presets), 10)
+        for preset in presets:
+            name, standard = preset.getName(), re.search(r"Class ([\w:-]+)\.$", preset.getDocString()).group(1)
+            with self.subTest(name):
+                output, good = run(os.environ["CATSEYE"], "measure", PRESETS, "--material", name, "--standard", standard)
+                self.assertTrue(good, output)
+                rows = list(csv.DictReader(io.StringIO(output)))
+                self.assertTrue(rows)
+                for row in rows:
+                    self.assertGreaterEqual(float(row["model"]), float(row["value"]), row)
 
     def test_every_nodedef_is_implemented_as_documented(self):
         """The table of docs/materialx.md: a row for each nodedef, a column for each target."""

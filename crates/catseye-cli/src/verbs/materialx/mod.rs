@@ -7,7 +7,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
-use catseye_materialx::data_library::{FILES, NAME};
+use catseye_materialx::data_library::{FOLDER, files};
 use clap::Subcommand;
 use serde_json::json;
 
@@ -31,13 +31,13 @@ enum Verb {
 
 /// Write the data library that adds `retro_reflective_bsdf` to MaterialX 1.39
 ///
-/// Writes the folder DIR/catseye, over an earlier one of ours. Add DIR to MaterialX's search path and load
-/// the library `catseye`, or let DIR be MaterialX's own folder `libraries`, where it is found by itself.
-/// docs/materialx.md shows both.
+/// Writes the folder DIR/libraries/catseye, over an earlier one of ours, and presets and a test document
+/// under DIR/resources. Add DIR to MaterialX's search path, or let it be MaterialX's own root folder.
+/// docs/materialx.md shows both, USD and the web.
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::MATERIALX_EXPORT)]
 struct Export {
-    /// Folder to write the library's folder into; made where it is missing
+    /// Folder to write into; made where it is missing
     #[arg(value_name = "DIR")]
     folder: PathBuf,
     /// Print what was written as JSON
@@ -56,23 +56,24 @@ impl Args {
 
 impl Export {
     fn run(&self) -> anyhow::Result<()> {
-        let library = self.folder.join(NAME);
+        let files: Vec<_> = files().collect();
         make_folder(&self.folder)?;
         // Everything is on the disk before the first file of the library itself is touched.
         let staging = tempfile::Builder::new().prefix(".catseye-").tempdir_in(&self.folder);
         let staging = staging.map_err(|error| io::Error::from(error.kind()));
         let staging = staging.with_context(|| format!("{}: can't be written", self.folder.display()))?;
-        for (path, text) in FILES {
+        for (path, text) in &files {
             make_folder(parent(&staging.path().join(path)))?;
-            fs::write(staging.path().join(path), text).with_context(|| unwritable(&library.join(path)))?;
+            fs::write(staging.path().join(path), text.as_bytes())
+                .with_context(|| unwritable(&self.folder.join(path)))?;
         }
-        for (path, _) in FILES {
-            let file = library.join(path);
+        for (path, _) in &files {
+            let file = self.folder.join(path);
             make_folder(parent(&file))?;
             fs::rename(staging.path().join(path), &file).with_context(|| unwritable(&file))?;
         }
-        let name = library.display().to_string();
-        let facts = json!({ "output": name, "files": FILES.len() });
+        let name = self.folder.join(FOLDER.trim_end_matches('/')).display().to_string();
+        let facts = json!({ "output": name, "files": files.len() });
         Stream::Out.note(self.json, &facts, &format!("wrote {name}"))
     }
 }
