@@ -106,19 +106,24 @@ Example:
 pub(crate) const PLOT: &str = "\
 Example:
   $ catseye plot lobe --roughness 0.3 -o lobe.svg
-  wrote lobe.svg (1338 x 409)";
+  wrote lobe.svg (916 x 369)";
 
 /// Example of `catseye plot lobe`.
 pub(crate) const PLOT_LOBE: &str = "\
 Example:
   $ catseye plot lobe --roughness 0.15 --theta 0,45,75 --axes cartesian -o lobe.png
-  wrote lobe.png (1338 x 409)";
+  wrote lobe.png (1832 x 738)";
 
 /// Example of `catseye plot albedo`.
 pub(crate) const PLOT_ALBEDO: &str = "\
 Example:
   $ catseye plot albedo --roughness 0.1 0.5 1 inf -o albedo.svg
   wrote albedo.svg (960 x 640)";
+
+/// Example of `catseye plot spheres`.
+pub(crate) const PLOT_SPHERES: &str = "\
+Example:
+  $ catseye plot spheres --roughness 0.15 -o spheres.png";
 
 /// Examples of `catseye fit`.
 pub(crate) const FIT: &str = "\

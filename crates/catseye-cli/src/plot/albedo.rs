@@ -55,6 +55,10 @@ impl AlbedoFigure {
 }
 
 impl Figure for AlbedoFigure {
+    fn title(&self) -> String {
+        format!("Share of the light that single scattering sends back: {}", self.model.name())
+    }
+
     fn size(&self) -> (u32, u32) {
         SIZE
     }
@@ -63,7 +67,6 @@ impl Figure for AlbedoFigure {
     where
         DB::ErrorType: 'static,
     {
-        let title = format!("Share of the light that single scattering sends back: {}", self.model.name());
         let subtitle = match self.model {
             Model::Reciprocal => "multiscatter_tint 0, tint 1; light in the plane of the tangent",
             Model::Edwards => "tint 1; light in the plane of the tangent",
@@ -71,7 +74,7 @@ impl Figure for AlbedoFigure {
                 "tint 1; light in the plane of the tangent; GGX alpha of the same peak at 0°"
             }
         };
-        canvas.text(&title, (24.0, 32.0), Lettering::left(22.0, INK))?;
+        canvas.text(&self.title(), (24.0, 32.0), Lettering::left(22.0, INK))?;
         canvas.text(subtitle, (24.0, 60.0), Lettering::left(15.0, MUTED))?;
         let frame = Axes { origin: (64.0, 122.0), size: (740.0, 440.0), x: 0.0..=90.0, y: 0.0..=1.0 };
         let x_ticks: Vec<f64> = (0..=6).map(|i| 15.0 * f64::from(i)).collect();

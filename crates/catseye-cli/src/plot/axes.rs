@@ -28,7 +28,8 @@ impl Axes {
         (left + width * share(x, &self.x), top + height * (1.0 - share(y, &self.y)))
     }
 
-    /// Draws grid and labels; the y axis' title stands above it, where it can be read without turning one's head.
+    /// Draws grid and labels; the y axis' title stands above it, where it can be read without turning one's
+    /// head.
     pub(crate) fn draw<DB: DrawingBackend>(
         &self,
         canvas: &Canvas<'_, DB>,

@@ -80,18 +80,12 @@ where
         Ok(self.area.draw_text(text, &text_style, self.pixel(at))?)
     }
 
-    /// The width that a text takes.
-    pub(crate) fn width(&self, text: &str, size: f64) -> anyhow::Result<f64> {
-        let font: FontDesc<'static> = ("sans-serif", size * self.scale).into_font();
-        let (width, _) = self.area.estimate_text_size(text, &TextStyle::from(font))?;
-        Ok(f64::from(width) / self.scale)
-    }
-
     fn pixel(&self, (x, y): Point) -> (i32, i32) {
         ((x * self.scale).round() as i32, (y * self.scale).round() as i32)
     }
 
-    /// The points in pixels; neighbours in the same pixel are one, as a wide line has no direction between them.
+    /// The points in pixels; neighbours in the same pixel are one, as a wide line has no direction between
+    /// them.
     fn pixels(&self, points: &[Point]) -> Vec<(i32, i32)> {
         let mut pixels: Vec<_> = points.iter().map(|&point| self.pixel(point)).collect();
         pixels.dedup();

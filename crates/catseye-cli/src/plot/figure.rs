@@ -12,8 +12,11 @@ use serde_json::json;
 use super::canvas::Canvas;
 use crate::output::{self, Output};
 
-/// Bitmaps are drawn at this scale and then averaged: the backend's own wide lines have hard edges.
-const SUPERSAMPLE: u32 = 4;
+/// Pixels of a bitmap for each unit of a drawing: sharp on screens of twice the usual density, too.
+pub(crate) const PNG_SCALE: u32 = 2;
+/// Bitmaps are drawn at this scale of a pixel and then averaged: the backend's own wide lines have hard
+/// edges.
+const SUPERSAMPLE: u32 = 3;
 /// Vector graphics are drawn at this scale and shown smaller: the backend's coordinates are whole numbers.
 const SUBPIXELS: u32 = 16;
 
@@ -22,6 +25,9 @@ static FONT: &[u8] = include_bytes!("../../assets/DejaVuSans.ttf");
 
 /// Something that can be drawn on any surface.
 pub(crate) trait Figure {
+    /// What it shows, for those who can't see it.
+    fn title(&self) -> String;
+
     /// Width and height.
     fn size(&self) -> (u32, u32);
 
@@ -60,11 +66,13 @@ impl FigureArgs {
         let path = self.output.as_deref().unwrap_or(Path::new(name));
         let format = output::format(path, self.format)?;
         let output = Output::new(path)?;
-        output.write(&match format {
-            Format::Svg => svg(figure)?.into_bytes(),
-            Format::Png => png(figure.size(), &pixels(figure)?)?,
-        })?;
         let (width, height) = figure.size();
+        let (bytes, scale) = match format {
+            Format::Svg => (svg(figure)?.into_bytes(), 1),
+            Format::Png => (png((width, height), &pixels(figure)?)?, PNG_SCALE),
+        };
+        output.write(&bytes)?;
+        let (width, height) = (width * scale, height * scale);
         let facts = json!({ "output": output.name(), "width": width, "height": height });
         output.messages().note(self.json, &facts, &format!("wrote {} ({width} x {height})", output.name()))
     }
@@ -82,18 +90,21 @@ pub(crate) fn svg(figure: &impl Figure) -> anyhow::Result<String> {
     area.present()?;
     drop(area);
     let drawn = format!("<svg width=\"{wide}\" height=\"{high}\"");
-    Ok(text.replacen(&drawn, &format!("<svg width=\"{width}\" height=\"{height}\""), 1))
+    let text = text.replacen(&drawn, &format!("<svg role=\"img\" width=\"{width}\" height=\"{height}\""), 1);
+    let title = figure.title().replace('&', "&amp;").replace('<', "&lt;");
+    Ok(text.replacen('>', &format!(">\n<title>{title}</title>"), 1))
 }
 
-/// The figure as rows of RGB bytes.
+/// The figure as rows of RGB bytes, in pixels of a bitmap.
 pub(crate) fn pixels(figure: &impl Figure) -> anyhow::Result<Vec<u8>> {
     load_font()?;
     let (width, height) = figure.size();
+    let (width, height) = (width * PNG_SCALE, height * PNG_SCALE);
     let (wide, high) = (width * SUPERSAMPLE, height * SUPERSAMPLE);
     let mut buffer = vec![0; wide as usize * high as usize * 3];
     let area = BitMapBackend::with_buffer(&mut buffer, (wide, high)).into_drawing_area();
     area.fill(&WHITE)?;
-    figure.draw(&Canvas::new(&area, f64::from(SUPERSAMPLE)))?;
+    figure.draw(&Canvas::new(&area, f64::from(PNG_SCALE * SUPERSAMPLE)))?;
     area.present()?;
     drop(area);
     Ok(average(&buffer, width as usize, height as usize))
@@ -116,9 +127,9 @@ fn average(buffer: &[u8], width: usize, height: usize) -> Vec<u8> {
     out
 }
 
-/// Rows of RGB bytes as a PNG file.
+/// Rows of RGB bytes as a PNG file, for a drawing of the given size.
 pub(crate) fn png((width, height): (u32, u32), rgb: &[u8]) -> anyhow::Result<Vec<u8>> {
-    Ok(encode_png_rgb([width as usize, height as usize], rgb)?)
+    Ok(encode_png_rgb([width, height].map(|units| (units * PNG_SCALE) as usize), rgb)?)
 }
 
 /// Makes the shipped font known to the drawing library.

@@ -9,3 +9,5 @@ pub(crate) mod furnace;
 pub(crate) mod lobe;
 mod polar;
 pub(crate) mod ra;
+pub(crate) mod sheet;
+pub(crate) mod spheres;

@@ -117,6 +117,10 @@ fn round_up(log: f64) -> f64 {
 }
 
 impl Figure for RaFigure {
+    fn title(&self) -> String {
+        self.request.title.clone()
+    }
+
     fn size(&self) -> (u32, u32) {
         SIZE
     }
@@ -179,7 +183,8 @@ impl RaFigure {
     }
 }
 
-/// The part of a curve above the lower end of the axis, as observation angles and logarithms; it ends on that edge.
+/// The part of a curve above the lower end of the axis, as observation angles and logarithms; it ends on that
+/// edge.
 fn visible(curve: &[(f64, f64)], bottom: f64) -> impl Iterator<Item = canvas::Point> {
     let logs = curve.iter().map(|&(x, value)| (x, value.max(f64::MIN_POSITIVE).log10()));
     let mut above: Vec<canvas::Point> = logs.clone().take_while(|&(_, log)| log >= bottom).collect();

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use anyhow::bail;
 use catseye::{AnyLobe, Lobe as _, Model, Params, Vec3};
-use catseye_render::{Image, encode_srgb, furnace};
+use catseye_render::{Image, furnace};
 use rayon::prelude::*;
 use serde_json::{Value, json};
 
@@ -13,32 +13,35 @@ use crate::failure::Usage;
 use crate::help;
 use crate::options::{ModelArg, Roughness};
 use crate::output::{Output, must_end_in};
-use crate::plot::furnace::{FurnaceFigure, Scattering, Tile};
+use crate::plot::furnace::{Scattering, Sphere, figure};
+use crate::plot::sheet::Sheet;
 use crate::progress::Progress;
 
 /// The proposal's columns.
 const ROUGHNESSES: [f64; 10] = [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9];
 /// Samples of each number for each sample of a pixel.
 const SAMPLES: u32 = 4096;
-/// Side of a sphere's picture in pixels.
-const TILE: usize = 116;
+/// Side of a sphere's picture in pixels, and how many samples of a pixel it takes for one that is asked for.
+const TILE: usize = 320;
+const OVERSAMPLED: u32 = 8;
 
 /// Reproduce the proposal's furnace figure, as a picture and as numbers
 ///
-/// Spheres in a white environment of radiance 1: one that loses no energy can't be seen. The upper row shows single
-/// scattering (`multiscatter_tint` 0), the lower one multiple scattering (`multiscatter_tint` 1). The numbers are the share of
-/// light that comes back at normal incidence and from the whole sphere, measured by sampling the lobe; beside each stands
-/// the exact value. The models without compensation have the upper row only.
+/// Spheres in an environment of the same radiance everywhere: one that loses no energy can't be seen, one
+/// that loses some is darker. Left halves show single scattering (`multiscatter_tint` 0), right halves
+/// multiple scattering (`multiscatter_tint` 1). The numbers are the share of light that comes back at normal
+/// incidence and from the whole sphere, measured by sampling the lobe; beside each stands the exact value.
+/// The models without compensation have single scattering only.
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::FURNACE)]
 pub(crate) struct Args {
     /// Picture to write, .png; `-` is standard output
     #[arg(short, long, value_name = "FILE", default_value = "furnace.png")]
     output: PathBuf,
-    /// Roughness of each column, 1 to 10 of them [default: 0 0.1 0.2 ... 0.9]
+    /// Roughness of each sphere, 1 to 10 of them [default: 0 0.1 0.2 ... 0.9]
     #[arg(long, value_name = "U[,V]", num_args = 1..)]
     roughness: Vec<Roughness>,
-    /// Samples per pixel; each number takes 4096 times as many
+    /// Samples of eight pixels; each number takes 4096 times as many
     #[arg(long, value_name = "N", default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=4096))]
     spp: u32,
     /// Which lobe
@@ -120,28 +123,30 @@ impl Args {
                 measured: mean_weight(&lobe, samples, disk_direction),
                 expected: model.exact_average_albedo(&params)?[0],
             },
-            image: furnace::sphere(AnyLobe::new(model, &params.map(|x| x as f32))?, TILE, self.spp)?,
+            image: furnace::sphere(
+                AnyLobe::new(model, &params.map(|x| x as f32))?,
+                TILE,
+                self.spp.div_ceil(OVERSAMPLED),
+            )?,
         })
     }
 
-    fn figure(&self, cells: &[Cell]) -> FurnaceFigure {
-        let tile = |cell: &Cell| Tile {
+    fn figure(&self, cells: &[Cell]) -> Sheet {
+        let sphere = |cell: &Cell| Sphere {
             roughness: cell.params.roughness(),
+            scattering: cell.scattering,
             measured: cell.sphere.measured,
             expected: cell.sphere.expected,
-            rgb: cell.image.pixels().iter().flat_map(|pixel| pixel.map(encode_srgb)).collect(),
+            image: cell.image.clone(),
         };
-        FurnaceFigure {
-            model: self.model.0,
-            side: TILE,
-            columns: cells.iter().filter(|cell| cell.scattering == Scattering::Single).count(),
-            tiles: cells.iter().map(tile).collect(),
-        }
+        let columns = cells.iter().filter(|cell| cell.scattering == Scattering::Single).count();
+        let pair = |i| cells.iter().skip(i).step_by(columns).map(sphere).collect();
+        figure(self.model.0, &(0..columns).map(pair).collect::<Vec<_>>())
     }
 }
 
-/// The mean weight of a lobe's samples: a Monte Carlo estimate of its albedo in the directions that two of the uniform
-/// numbers make.
+/// The mean weight of a lobe's samples: a Monte Carlo estimate of its albedo in the directions that two of
+/// the uniform numbers make.
 fn mean_weight(lobe: &AnyLobe<f64>, samples: u32, direction: impl Fn([f64; 2]) -> Vec3<f64> + Sync) -> f64 {
     let weight = |i| {
         let [a, b, u @ ..] = evenly_spread(i);
@@ -163,8 +168,8 @@ fn disk_direction([a, b]: [f64; 2]) -> Vec3<f64> {
 
 /// The i-th point of a sequence that fills the unit cube evenly.
 ///
-/// Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018: multiples of the powers of 1/g modulo 1,
-/// where g is the real root of x^6 = x + 1.
+/// Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018: multiples of the powers of 1/g
+/// modulo 1, where g is the real root of x^6 = x + 1.
 fn evenly_spread(i: u32) -> [f64; 5] {
     const G: f64 = 1.134_724_138_401_519_5;
     [1, 2, 3, 4, 5].map(|power| (0.5 + f64::from(i) * G.powi(-power)).fract())

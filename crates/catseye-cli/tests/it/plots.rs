@@ -21,6 +21,31 @@ fn svg_and_png_by_the_name_s_ending() {
         let text = fs::read_to_string(bench.path(name)).unwrap();
         assert!(text.starts_with("<svg") && text.trim_end().ends_with("</svg>"), "{name}: {text:.80}");
         assert!(!text.contains("NaN") && !text.contains("inf"), "{name} has no undefined coordinate");
+        assert!(text.contains("role=\"img\"") && text.contains("<title>"), "{name} says what it shows");
+    }
+}
+
+#[test]
+fn logarithmic_diagrams_and_spheres_are_plotted() {
+    let bench = Bench::new();
+    for args in [
+        "plot lobe --axes log --roughness 0.006 0.3 --theta 0 -o log.svg",
+        "plot spheres --roughness 0.3 -o spheres.png",
+    ] {
+        let outcome = bench.catseye(args, "");
+        assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""), "{args}");
+    }
+    let text = fs::read_to_string(bench.path("log.svg")).unwrap();
+    assert!(text.contains("roughness 0.006, light at 0°") && text.contains("10⁻⁸"), "{text:.300}");
+    assert!(!text.contains("NaN") && !text.contains("inf"));
+    for (args, message) in [
+        ("plot lobe --roughness 0.1 0.2 0.3 --theta 0,30", "6 panels"),
+        ("plot spheres --roughness 0.001", "0.01 to 10"),
+        ("plot spheres -o a.svg", "must end in .png"),
+    ] {
+        let outcome = bench.catseye(args, "");
+        assert_eq!(outcome.code, 2, "{args}");
+        assert!(outcome.stderr.contains(message), "{args}: {}", outcome.stderr);
     }
 }
 
