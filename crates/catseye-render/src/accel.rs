@@ -42,7 +42,8 @@ pub(crate) struct Accel {
 }
 
 impl Accel {
-    /// Builds the hierarchy. Also returns which of the given primitives stands at each place of the new order.
+    /// Builds the hierarchy. Also returns which of the given primitives stands at each place of the new
+    /// order.
     pub(crate) fn new(primitives: &[Primitive]) -> (Self, Vec<u32>) {
         if primitives.is_empty() {
             return (Self::default(), Vec::new());
@@ -84,8 +85,8 @@ impl Accel {
     }
 }
 
-/// As `obvhs::cwbvh::builder::build_cwbvh`, without its self-check in debug builds: that has an absolute tolerance of
-/// 1e-5, less than the rounding of scenes beyond a hundred metres.
+/// As `obvhs::cwbvh::builder::build_cwbvh`, without its self-check in debug builds: that has an absolute
+/// tolerance of 1e-5, less than the rounding of scenes beyond a hundred metres.
 fn build(primitives: &[Primitive]) -> CwBvh {
     let params = BvhBuildParams::medium_build();
     let mut bvh2 = PlocBuilder::with_capacity(primitives.len()).build(

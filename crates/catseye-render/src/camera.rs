@@ -38,7 +38,8 @@ impl Camera {
         Self { eye, frame: looking(target - eye, up), projection }
     }
 
-    /// The ray through a point of the picture: `x` and `y` in pixels from the top left corner of a `size` picture.
+    /// The ray through a point of the picture: `x` and `y` in pixels from the top left corner of a `size`
+    /// picture.
     #[inline]
     #[must_use]
     pub fn ray(&self, [x, y]: [f32; 2], [width, height]: [f32; 2]) -> Ray {

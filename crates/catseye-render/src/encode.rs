@@ -52,9 +52,9 @@ pub struct PictureInfo {
     pub lamp_deg: Option<f32>,
 }
 
-/// The picture as a 32-bit float EXR of linear Rec. 709 radiance. The attributes `chromaticities` and `software` are
-/// always there, the others as far as they are known: command and units in `comments`, numbers as `exposureEv` and
-/// `lampDeg`.
+/// The picture as a 32-bit float EXR of linear Rec. 709 radiance. The attributes `chromaticities` and
+/// `software` are always there, the others as far as they are known: command and units in `comments`, numbers
+/// as `exposureEv` and `lampDeg`.
 ///
 /// # Errors
 /// A picture without pixels.

@@ -51,8 +51,9 @@ pub enum Error {
     },
     /// Light that is sent back in a single direction, where something was to be measured.
     #[error(
-        "the material sends light back in a single direction (roughness 0), of which nothing reaches a receiver beside \
-         the source: give its retro-reflective lobe a roughness, 0.006 for a half-power angle of 0.4 degree"
+        "the material sends light back in a single direction (roughness 0), of which nothing reaches a \
+         receiver beside the source: give its retro-reflective lobe a roughness, 0.006 for a half-power angle \
+         of 0.4 degree"
     )]
     RetroMirror,
     /// A mesh is inconsistent.

@@ -5,8 +5,8 @@ const TABLE_SIZE: usize = 64;
 
 /// A separable filter that samples of a pixel are distributed by.
 ///
-/// Where samples are drawn from the filter all of them count alike, and no sample belongs to two pixels: pixels stay
-/// independent, and so do threads (Ernst et al., "Filter Importance Sampling", 2006).
+/// Where samples are drawn from the filter all of them count alike, and no sample belongs to two pixels:
+/// pixels stay independent, and so do threads (Ernst et al., "Filter Importance Sampling", 2006).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Filter {
     /// The inverse of the cumulative distribution at `i / TABLE_SIZE`, in pixels.

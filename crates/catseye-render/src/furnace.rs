@@ -1,7 +1,7 @@
 //! The white furnace: a sphere in light that is the same from everywhere.
 //!
-//! A surface that returns all energy can't be seen in it: the radiance is 1 in every direction. What it loses makes
-//! it darker than the background.
+//! A surface that returns all energy can't be seen in it: the radiance is 1 in every direction. What it loses
+//! makes it darker than the background.
 
 use catseye::AnyLobe;
 use glam::Vec3;
@@ -42,16 +42,16 @@ pub fn sphere(lobe: AnyLobe<f32>, size: usize, spp: u32) -> Result<Image, Error>
     render(&scene(Bsdf::from_lobe(lobe))?, &settings, &|_| ())
 }
 
-/// The mean radiance over the disk that the sphere covers, per channel: by Lambert's projection the hemispherical
-/// (cosine-weighted) mean of the directional albedo.
+/// The mean radiance over the disk that the sphere covers, per channel: by Lambert's projection the
+/// hemispherical (cosine-weighted) mean of the directional albedo.
 ///
 /// It is estimated from `samples` paths (at least 1); the error falls about as 1 / samples.
 ///
 /// # Errors
 /// Too many samples for a picture.
 pub fn mean_albedo(lobe: AnyLobe<f32>, samples: u32) -> Result<[f32; 3], Error> {
-    // A square inscribed in the disk would miss its rim: render the bounding square, and take the corners, where
-    // the radiance is exactly 1, off again.
+    // A square inscribed in the disk would miss its rim: render the bounding square, and take the corners,
+    // where the radiance is exactly 1, off again.
     let side = 64;
     let settings = RenderSettings {
         width: side,

@@ -8,8 +8,9 @@ const HALO: [(f32, f32); 3] = [(0.0035, 0.5), (0.012, 0.3), (0.045, 0.2)];
 const BOXES: usize = 3;
 
 impl Image {
-    /// The picture as a lens or an eye that scatters `share` of the light sees it: each point loses that share to a
-    /// halo around it. The sum of all pixels stays the same but for what the halo carries over the picture's edge.
+    /// The picture as a lens or an eye that scatters `share` of the light sees it: each point loses that
+    /// share to a halo around it. The sum of all pixels stays the same but for what the halo carries over the
+    /// picture's edge.
     #[must_use]
     pub fn with_glare(&self, share: f32) -> Self {
         if share <= 0.0 {
@@ -27,10 +28,12 @@ impl Image {
         })
     }
 
-    /// The picture convolved with about a Gaussian of the given standard deviation in pixels; black lies around it.
+    /// The picture convolved with about a Gaussian of the given standard deviation in pixels; black lies
+    /// around it.
     ///
-    /// Three boxes one after another (Wells, "Efficient Synthesis of Gaussian Filters by Cascaded Uniform Filters",
-    /// PAMI 8(2), 1986) along the rows, then along the columns: the time doesn't depend on the width.
+    /// Three boxes one after another (Wells, "Efficient Synthesis of Gaussian Filters by Cascaded Uniform
+    /// Filters", PAMI 8(2), 1986) along the rows, then along the columns: the time doesn't depend on the
+    /// width.
     fn blurred(&self, sigma: f32) -> Self {
         // A box of 2 r + 1 pixels has the variance r (r + 1) / 3.
         let radius = (0.5 * ((4.0 * sigma * sigma + 1.0).sqrt() - 1.0)).round().max(1.0) as usize;
@@ -38,8 +41,8 @@ impl Image {
         filtered(filtered(self.turned()).turned())
     }
 
-    /// Each pixel becomes the mean of those up to `radius` above and below it. Columns are summed side by side: rows
-    /// are read and written from end to end.
+    /// Each pixel becomes the mean of those up to `radius` above and below it. Columns are summed side by
+    /// side: rows are read and written from end to end.
     fn box_filtered(&self, radius: usize) -> Self {
         let (width, height) = (self.width(), self.height());
         let scale = 1.0 / (2 * radius + 1) as f64;

@@ -65,7 +65,8 @@ impl Image {
         self.pixels[y * self.width + x] = value;
     }
 
-    /// Copies another picture into this one, its top left corner at `(left, top)`; what sticks out is dropped.
+    /// Copies another picture into this one, its top left corner at `(left, top)`; what sticks out is
+    /// dropped.
     pub fn paste(&mut self, other: &Self, left: usize, top: usize) {
         let columns = other.width.min(self.width.saturating_sub(left));
         for y in 0..other.height.min(self.height.saturating_sub(top)) {
@@ -83,7 +84,8 @@ impl Image {
         shown
     }
 
-    /// The picture with each block of `factor` by `factor` pixels made one; what doesn't fill a block is dropped.
+    /// The picture with each block of `factor` by `factor` pixels made one; what doesn't fill a block is
+    /// dropped.
     ///
     /// # Panics
     /// If the factor is 0.

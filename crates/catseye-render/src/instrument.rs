@@ -1,7 +1,8 @@
 //! A virtual retroreflectometer: the coefficient of retro-reflection of a material, measured by tracing rays.
 //!
-//! The arrangement is that of ASTM E810 and CIE 54.2: a lamp and a photoreceptor, each behind a round aperture, stand at
-//! the same distance from a specimen. What arrives at the receiver is compared with what arrives at the specimen.
+//! The arrangement is that of ASTM E810 and CIE 54.2: a lamp and a photoreceptor, each behind a round
+//! aperture, stand at the same distance from a specimen. What arrives at the receiver is compared with what
+//! arrives at the specimen.
 
 use catseye::Model;
 use catseye_materialx::Material;
@@ -21,16 +22,17 @@ const STREAM: u32 = 0x4e81_0e80;
 
 /// A retroreflectometer: lengths in metres.
 ///
-/// The scene stands in the specimen's own frame: instead of turning the specimen by the goniometer's angles, source and
-/// receiver are moved around it, which is the same to a material and keeps world-space inputs (a `tangent_u` given by
-/// the document) where the specimen's frame has them.
+/// The scene stands in the specimen's own frame: instead of turning the specimen by the goniometer's angles,
+/// source and receiver are moved around it, which is the same to a material and keeps world-space inputs (a
+/// `tangent_u` given by the document) where the specimen's frame has them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Retroreflectometer {
     /// Distance between the specimen's centre and the centres of both apertures. Default 15 m, as ASTM E810.
     pub distance_m: f32,
     /// Side of the square specimen. Default 0.2 m.
     pub specimen_side_m: f32,
-    /// Diameter of the source's exit aperture. Default 0.026 m, 0.1 degrees at 15 m: the most that ASTM E810 allows.
+    /// Diameter of the source's exit aperture. Default 0.026 m, 0.1 degrees at 15 m: the most that ASTM E810
+    /// allows.
     pub source_aperture_m: f32,
     /// Diameter of the receiver's entrance aperture. Default 0.026 m, as the source's.
     pub receiver_aperture_m: f32,
@@ -61,8 +63,9 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// The coefficient of retro-reflection `R_A` in cd/lx/m2 (the same number as 1/sr), its channels of linear
-    /// Rec. 709 summed with weights: one of them 1 for light of that colour, those of luminance for white light.
+    /// The coefficient of retro-reflection `R_A` in cd/lx/m2 (the same number as 1/sr), its channels of
+    /// linear Rec. 709 summed with weights: one of them 1 for light of that colour, those of luminance for
+    /// white light.
     #[must_use]
     pub fn r_a(&self, weights: [f64; 3]) -> Estimate {
         let count = REPLICATES as f64;
@@ -72,8 +75,8 @@ impl Reading {
         Estimate { value, standard_error: (variance / count).sqrt() }
     }
 
-    /// The coefficient of retro-reflected luminance `R_L = R_A / cos(nu)` in cd/m2/lx, where nu is the angle between
-    /// the specimen's normal and the receiver (ASTM E808); the weights are those of [`Reading::r_a`].
+    /// The coefficient of retro-reflected luminance `R_L = R_A / cos(nu)` in cd/m2/lx, where nu is the angle
+    /// between the specimen's normal and the receiver (ASTM E808); the weights are those of [`Reading::r_a`].
     #[must_use]
     pub fn r_l(&self, weights: [f64; 3]) -> Estimate {
         let Estimate { value, standard_error } = self.r_a(weights);
@@ -96,15 +99,16 @@ struct Aperture {
 }
 
 impl Retroreflectometer {
-    /// Measures a material with the receiver in the direction `wo` and the source in the direction `wi`, unit vectors of
-    /// the specimen's frame: z is its normal, x its tangent (the datum mark).
+    /// Measures a material with the receiver in the direction `wo` and the source in the direction `wi`, unit
+    /// vectors of the specimen's frame: z is its normal, x its tangent (the datum mark).
     ///
-    /// `samples` paths are traced, in 32 independent parts from whose scatter the standard error is taken. The reading
-    /// depends on the arguments only, not on the number of threads. What the specimen emits itself doesn't count, as
-    /// if the lamp were chopped. A direction below the specimen's plane reads 0.
+    /// `samples` paths are traced, in 32 independent parts from whose scatter the standard error is taken.
+    /// The reading depends on the arguments only, not on the number of threads. What the specimen emits
+    /// itself doesn't count, as if the lamp were chopped. A direction below the specimen's plane reads 0.
     ///
     /// # Errors
-    /// A size that is not positive, a direction that is not a unit vector, a parameter of the material out of range.
+    /// A size that is not positive, a direction that is not a unit vector, a parameter of the material out of
+    /// range.
     pub fn measure(
         &self,
         material: &Material,
@@ -158,8 +162,8 @@ impl Retroreflectometer {
         let sheeting = builder.materialx(material, model)?;
         let side = self.specimen_side_m;
         builder.mesh(Mesh::quad(Vec3::new(-0.5, -0.5, 0.0) * side, Vec3::X * side, Vec3::Y * side), sheeting);
-        // A disk of radiance L, seen head-on, brings pi L sin^2 of the half angle. So E_perp is 1, which also puts what the
-        // specimen sends back and what it may emit itself into the same order of magnitude.
+        // A disk of radiance L, seen head-on, brings pi L sin^2 of the half angle. So E_perp is 1, which also
+        // puts what the specimen sends back and what it may emit itself into the same order of magnitude.
         let squared = source.radius * source.radius;
         let radiance = (squared + distance * distance) / (std::f64::consts::PI * squared);
         let (centre, normal) = (source.centre.as_vec3(), -wi.as_vec3());
@@ -179,7 +183,8 @@ impl Retroreflectometer {
         (sum / f64::from(paths)).to_array()
     }
 
-    /// What the light between a point of the specimen and a point of the receiver adds to `R_A = E_r d^2 / (E_perp A)`.
+    /// What the light between a point of the specimen and a point of the receiver adds to `R_A = E_r d^2 /
+    /// (E_perp A)`.
     fn path(&self, setup: &Setup, receiver: DVec3, point: DVec3, sampler: &Sampler) -> DVec3 {
         let along = point - receiver;
         let squared = along.length_squared();
@@ -187,8 +192,8 @@ impl Retroreflectometer {
         let light = |depth| integrator::radiance(&setup.scene, ray, &mut sampler.clone(), depth).as_dvec3();
         // Without scattering there is only what the specimen emits itself.
         let radiance = light(MAX_DEPTH) - light(0);
-        // E_r is the integral of radiance cos cos / r^2 over the specimen's area A, which the quotient cancels. The
-        // illuminance E_perp at the specimen's centre, on a plane that faces the source, is 1.
+        // E_r is the integral of radiance cos cos / r^2 over the specimen's area A, which the quotient
+        // cancels. The illuminance E_perp at the specimen's centre, on a plane that faces the source, is 1.
         let cos_specimen = -along.z / squared.sqrt();
         let cos_receiver = -along.dot(setup.receiver.centre) / (squared.sqrt() * f64::from(self.distance_m));
         let falloff = f64::from(self.distance_m).powi(2) / squared;

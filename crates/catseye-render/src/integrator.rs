@@ -9,8 +9,8 @@ use crate::{Ray, Scene};
 
 /// Surfaces that a ray may pass straight through between two scatterings.
 const MAX_PASSED: u32 = 64;
-/// The part of the probability of choosing a light that all lights share alike: no light is forgotten where the
-/// estimate of its importance is wrong.
+/// The part of the probability of choosing a light that all lights share alike: no light is forgotten where
+/// the estimate of its importance is wrong.
 const UNIFORM_SHARE: f32 = 0.25;
 
 /// A path from the camera to where it has come.
@@ -22,8 +22,8 @@ struct Path<'a> {
     radiance: Vec3,
     /// Scatterings so far.
     depth: u32,
-    /// The last scattering: where it was, and the density of the ray's direction. `None` for the density after a
-    /// Dirac lobe and at the camera, where light sampling had no part.
+    /// The last scattering: where it was, and the density of the ray's direction. `None` for the density
+    /// after a Dirac lobe and at the camera, where light sampling had no part.
     origin: Vec3,
     pdf: Option<f32>,
 }
@@ -187,8 +187,8 @@ impl Path<'_> {
             return false;
         }
         self.throughput *= sample.weight;
-        // Russian roulette: a path that counts for less goes on more rarely. The root keeps rare survivors from
-        // counting too much.
+        // Russian roulette: a path that counts for less goes on more rarely. The root keeps rare survivors
+        // from counting too much.
         let survival = self.throughput.max_element().min(1.0).sqrt();
         if survival < 1.0 {
             if sampler.next_4d()[0] >= survival {

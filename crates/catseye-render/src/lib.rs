@@ -1,8 +1,9 @@
 //! A CPU path tracer that shows the catseye BSDF.
 //!
-//! It renders [`Scene`]s of triangle meshes and spheres, whose materials are [`Bsdf`]s made from MaterialX closures, in
-//! the light of lamps, panels and environments. Paths are traced from the camera with light sampling, multiple
-//! importance sampling and Owen-scrambled Sobol points; a picture is the same to the last bit for any number of threads.
+//! It renders [`Scene`]s of triangle meshes and spheres, whose materials are [`Bsdf`]s made from MaterialX
+//! closures, in the light of lamps, panels and environments. Paths are traced from the camera with light
+//! sampling, multiple importance sampling and Owen-scrambled Sobol points; a picture is the same to the last
+//! bit for any number of threads.
 //!
 //! ```
 //! use catseye::{Model, Params};
@@ -22,14 +23,17 @@
 //! ```
 //!
 //! # Conventions
-//! - Scenes are right-handed with y up; lengths are metres in the scenes that come with the crate. Colours are linear
-//!   Rec. 709. Light is in any radiometric or photometric system: radiance, irradiance and intensity agree.
+//! - Scenes are right-handed with y up; lengths are metres in the scenes that come with the crate. Colours
+//!   are linear Rec. 709. Light is in any radiometric or photometric system: radiance, irradiance and
+//!   intensity agree.
 //! - Vectors are those of [`glam`], which is re-exported: its version is part of the interface.
-//! - Surfaces are two-sided: whichever side a ray meets is the upper side of its BSDF. Only dielectrics that transmit
-//!   know inside from outside.
-//! - A tangent points along increasing u of the texture coordinates, unless the material gives one in world space.
+//! - Surfaces are two-sided: whichever side a ray meets is the upper side of its BSDF. Only dielectrics that
+//!   transmit know inside from outside.
+//! - A tangent points along increasing u of the texture coordinates, unless the material gives one in world
+//!   space.
 //! - Densities are per steradian. That of a Dirac distribution is 1, and its sample says `is_dirac`.
-//! - A Dirac lobe (roughness 0) is met by scattered rays only, so it shows lights that have an extent, not points.
+//! - A Dirac lobe (roughness 0) is met by scattered rays only, so it shows lights that have an extent, not
+//!   points.
 
 mod accel;
 mod bsdf;
@@ -72,6 +76,7 @@ pub use mesh::Mesh;
 pub use ray::Ray;
 pub use render::{RenderSettings, render};
 pub use scene::{MaterialId, Scene, SceneBuilder};
+pub use scenes::Lighting;
 pub use specimen::Specimen;
 pub use sphere::Sphere;
 pub use tone::{ToneMap, encode_srgb};

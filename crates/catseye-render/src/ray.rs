@@ -13,8 +13,8 @@ pub struct Ray {
     pub t_max: f32,
 }
 
-/// Distance that a ray's origin is lifted off a surface, relative to the largest coordinate: about a hundred times
-/// the rounding of a point computed from three vertices.
+/// Distance that a ray's origin is lifted off a surface, relative to the largest coordinate: about a hundred
+/// times the rounding of a point computed from three vertices.
 const RELATIVE_OFFSET: f32 = 1.2e-5;
 
 impl Ray {

@@ -68,7 +68,8 @@ impl RenderSettings {
 /// Takes a picture of the scene: linear radiance.
 ///
 /// `progress` is called from the worker threads, with the share of the work that is done, in `(0, 1]` and not
-/// necessarily in rising order. The picture depends on the scene and the settings only, not on the number of threads.
+/// necessarily in rising order. The picture depends on the scene and the settings only, not on the number of
+/// threads.
 ///
 /// # Errors
 /// A setting out of its range, or threads that can't be started.

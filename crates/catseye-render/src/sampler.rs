@@ -5,9 +5,10 @@ const SEQUENCE_LENGTH: u32 = 1 << 16;
 
 /// The numbers of one sample of one pixel.
 ///
-/// Every call of [`Sampler::next_4d`] takes four fresh dimensions: the first four of the Sobol sequence, scrambled
-/// and shuffled by the pixel, the seed and the number of the call (Burley, "Practical Hash-based Owen Scrambling",
-/// JCGT 9(4), 2020, section 5). Nothing depends on other pixels, so neither does a picture on its tiles or threads.
+/// Every call of [`Sampler::next_4d`] takes four fresh dimensions: the first four of the Sobol sequence,
+/// scrambled and shuffled by the pixel, the seed and the number of the call (Burley, "Practical Hash-based
+/// Owen Scrambling", JCGT 9(4), 2020, section 5). Nothing depends on other pixels, so neither does a picture
+/// on its tiles or threads.
 #[derive(Clone, Debug)]
 pub(crate) struct Sampler {
     index: u32,

@@ -8,13 +8,14 @@ use crate::accel::{Accel, Primitive};
 use crate::bsdf::Albedo;
 use crate::material::{MaterialAt, MaterialBsdf};
 use crate::surface::{Attributes, Hit, shading_point, texcoords};
-use crate::{Bsdf, Camera, Error, Light, Mesh, Ray, Sphere, ToneMap};
+use crate::{Bsdf, Camera, Error, Light, Mesh, PictureInfo, Ray, Sphere, ToneMap};
 
 /// A scene, ready to be rendered. Made by a [`SceneBuilder`].
 #[derive(Debug)]
 pub struct Scene {
     camera: Camera,
     tone_map: ToneMap,
+    info: PictureInfo,
     indirect_limit: f32,
     accel: Accel,
     attributes: Vec<Attributes>,
@@ -34,6 +35,7 @@ pub struct MaterialId(u32);
 pub struct SceneBuilder {
     camera: Camera,
     tone_map: ToneMap,
+    info: PictureInfo,
     indirect_limit: f32,
     materials: Vec<MaterialBsdf>,
     meshes: Vec<(Mesh, MaterialId)>,
@@ -48,6 +50,7 @@ impl SceneBuilder {
         Self {
             camera,
             tone_map: ToneMap::default(),
+            info: PictureInfo::default(),
             indirect_limit: f32::INFINITY,
             materials: Vec::new(),
             meshes: Vec::new(),
@@ -112,14 +115,26 @@ impl SceneBuilder {
         self
     }
 
+    /// Whether a material sends light back in a single direction.
+    pub(crate) fn has_retro_mirror(&self) -> bool {
+        self.materials.iter().any(|material| material.anywhere().bsdf.has_retro_mirror())
+    }
+
     /// Sets the tone map that suits the scene.
     pub fn tone_map(&mut self, tone_map: ToneMap) -> &mut Self {
         self.tone_map = tone_map;
         self
     }
 
-    /// Limits what a single path may bring of indirect light: specks that small lamps and smooth surfaces make in each
-    /// other vanish, and so do the caustics that they would have become. Without it pictures are unbiased.
+    /// Says what a file of the scene's picture is to say of it; the exposure is the tone map's.
+    pub fn info(&mut self, info: PictureInfo) -> &mut Self {
+        self.info = info;
+        self
+    }
+
+    /// Limits what a single path may bring of indirect light: specks that small lamps and smooth surfaces
+    /// make in each other vanish, and so do the caustics that they would have become. Without it pictures are
+    /// unbiased.
     pub fn indirect_limit(&mut self, radiance: f32) -> &mut Self {
         self.indirect_limit = radiance;
         self
@@ -156,6 +171,7 @@ impl SceneBuilder {
         let (accel, order) = Accel::new(&primitives);
         Ok(Scene {
             camera: self.camera,
+            info: PictureInfo { exposure_ev: Some(self.tone_map.exposure_ev), ..self.info },
             tone_map: self.tone_map,
             indirect_limit: self.indirect_limit,
             accel,
@@ -182,6 +198,12 @@ impl Scene {
     #[must_use]
     pub fn tone_map(&self) -> &ToneMap {
         &self.tone_map
+    }
+
+    /// What a file of the picture is to say of it: units, exposure and lamp.
+    #[must_use]
+    pub fn info(&self) -> &PictureInfo {
+        &self.info
     }
 
     /// The most that a single path may bring of indirect light.

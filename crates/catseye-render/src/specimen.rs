@@ -21,17 +21,18 @@ impl Specimen {
         MaterialBsdf::new(material, model, Vec3::ONE).map(Self)
     }
 
-    /// The BSDF f(wo, wi) in 1/sr, the cosine not included, in linear Rec. 709. Unit directions that point away from
-    /// the specimen, `wo` to the viewer, whom patterns see; 0 below the horizon.
+    /// The BSDF f(wo, wi) in 1/sr, the cosine not included, in linear Rec. 709. Unit directions that point
+    /// away from the specimen, `wo` to the viewer, whom patterns see; 0 below the horizon.
     ///
-    /// What the specimen lets through (`opacity` below 1) is not reflected, and what it emits is not part of it.
-    /// Mirrors take no part, as no pair of directions meets them exactly: a smooth coat weakens what is below and
-    /// adds nothing. Computed in `f32`: within 1e-3 of the exact lobe from a tenth of a degree on, down to a
-    /// millionth of the peak (a test measures 6e-4).
+    /// What the specimen lets through (`opacity` below 1) is not reflected, and what it emits is not part of
+    /// it. Mirrors take no part, as no pair of directions meets them exactly: a smooth coat weakens what is
+    /// below and adds nothing. Computed in `f32`: within 1e-3 of the exact lobe from a tenth of a degree on,
+    /// down to a millionth of the peak (a test measures 6e-4).
     ///
     /// # Errors
-    /// As [`Bsdf::with_model`](crate::Bsdf::with_model), where patterns make the BSDF; and [`Error::RetroMirror`]
-    /// where light is sent back by a lobe of roughness 0, which returns everything in one direction.
+    /// As [`Bsdf::with_model`](crate::Bsdf::with_model), where patterns make the BSDF; and
+    /// [`Error::RetroMirror`] where light is sent back by a lobe of roughness 0, which returns everything in
+    /// one direction.
     pub fn eval(&self, wo: catseye::Vec3<f64>, wi: catseye::Vec3<f64>) -> Result<[f64; 3], Error> {
         if wo.z <= 0.0 || wi.z <= 0.0 {
             return Ok([0.0; 3]);

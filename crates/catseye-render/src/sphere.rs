@@ -18,8 +18,9 @@ pub struct Sphere {
 impl Sphere {
     /// The nearest distance in `(0, ray.t_max)` at which the ray meets the sphere.
     ///
-    /// Haines, Günther and Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems,
-    /// 2019: the discriminant from the distance of the ray to the centre, the roots without cancellation.
+    /// Haines, Günther and Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing
+    /// Gems, 2019: the discriminant from the distance of the ray to the centre, the roots without
+    /// cancellation.
     #[inline]
     #[must_use]
     pub fn intersect(&self, ray: &Ray) -> Option<f32> {

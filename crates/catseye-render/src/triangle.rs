@@ -6,8 +6,8 @@ use crate::Ray;
 
 /// A ray prepared for many triangles: the shear that makes it the z axis.
 ///
-/// Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013: no ray slips through an edge that
-/// two triangles share, because its end points are mapped alike for both.
+/// Woop, Benthin and Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013: no ray slips through an
+/// edge that two triangles share, because its end points are mapped alike for both.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct ShearedRay {
     origin: Vec3A,

@@ -136,3 +136,40 @@ fn a_look_assigns_materials_to_a_scene_s_geometry() {
         assert!(outcome.stderr.contains(message), "{args}: {}", outcome.stderr);
     }
 }
+
+#[test]
+fn lamp_and_exposure_are_those_asked_for_and_said() {
+    let bench = Bench::new();
+    bench.write("vest.mtlx", DOCUMENT);
+    let facts = |args: &str| -> serde_json::Value {
+        let outcome = bench.catseye(&format!("render vest.mtlx {SMALL} --json {args}"), "");
+        assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""), "{args}");
+        serde_json::from_str(&outcome.stdout).unwrap()
+    };
+    let own = facts("-o own.png");
+    assert_eq!((&own["lamp_deg"][0], &own["exposure_ev"][0]), (&0.2_f32.into(), &3.0.into()));
+    assert_eq!(facts("--exposure -2 -o dark.png")["exposure_ev"][0], 1.0);
+    assert_ne!(facts("--exposure auto -o auto.png")["exposure_ev"], own["exposure_ev"]);
+    let aside = facts("--lamp-deg 5 -o aside.exr");
+    assert_eq!(aside["lamp_deg"][0], 5.0);
+    let bytes = fs::read(bench.path("aside.exr")).unwrap();
+    for attribute in ["chromaticities", "software", "comments", "exposureEv", "lampDeg", "--lamp-deg 5"] {
+        assert!(bytes.windows(attribute.len()).any(|part| part == attribute.as_bytes()), "{attribute}");
+    }
+    let size = |file: &str| png_size(&fs::read(bench.path(file)).unwrap());
+    facts("--lamp-deg 0.2,5 -o both.png");
+    assert!(size("both.png")[0] > 2 * 32 && size("both.png")[1] > 18, "{:?}", size("both.png"));
+    for refused in ["--lamp-deg 0.2,5 -o a.exr", "--lamp-deg 60", "--exposure bright", "--labels -o a.exr"] {
+        assert_eq!(bench.catseye(&format!("render vest.mtlx {SMALL} {refused}"), "").code, 2, "{refused}");
+    }
+}
+
+#[test]
+fn the_signs_of_the_built_in_scene_are_read() {
+    let bench = Bench::new();
+    let outcome = bench.catseye("render --size 160x90 --spp 4 --labels --json -o night.png", "");
+    let facts: serde_json::Value = serde_json::from_str(&outcome.stdout).unwrap();
+    let [left, right] = [0, 1].map(|i| facts["signs_cd_m2"][i].as_f64().unwrap());
+    // What the README says of its picture.
+    assert!((left / right - 30.0).abs() < 2.0, "{left} {right}");
+}

@@ -13,10 +13,11 @@ use super::ggx::{Ggx, SMOOTH_ALPHA};
 /// Relative difference of the indices below which there is nothing to see and refraction goes straight on.
 const EQUAL_INDEX: f32 = 1e-3;
 
-/// A dielectric interface with GGX facets, single scattering (Walter et al., "Microfacet Models for Refraction through
-/// Rough Surfaces", EGSR 2007).
+/// A dielectric interface with GGX facets, single scattering (Walter et al., "Microfacet Models for
+/// Refraction through Rough Surfaces", EGSR 2007).
 ///
-/// What is carried along a path is radiance over the squared index, which refraction leaves alone: no factor eta^2.
+/// What is carried along a path is radiance over the squared index, which refraction leaves alone: no factor
+/// eta^2.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Dielectric {
     tint: Vec3,

@@ -1,5 +1,5 @@
-//! Lobes that are sampled by the cosine: `oren_nayar_diffuse_bsdf`, `burley_diffuse_bsdf`, `translucent_bsdf` and
-//! `sheen_bsdf`.
+//! Lobes that are sampled by the cosine: `oren_nayar_diffuse_bsdf`, `burley_diffuse_bsdf`, `translucent_bsdf`
+//! and `sheen_bsdf`.
 
 use std::f32::consts::{FRAC_1_PI, PI};
 use std::sync::LazyLock;
@@ -77,8 +77,8 @@ impl Diffuse {
         }
     }
 
-    /// The share of energy that goes on to what `layer` puts below: fibres let through what they don't scatter,
-    /// diffuse surfaces nothing.
+    /// The share of energy that goes on to what `layer` puts below: fibres let through what they don't
+    /// scatter, diffuse surfaces nothing.
     #[inline]
     pub(crate) fn throughput(&self, wo: Vec3) -> Vec3 {
         match *self {

@@ -4,8 +4,8 @@ use glam::Vec3;
 
 /// The share of unpolarised light that a smooth interface reflects.
 ///
-/// `cos_i` is the cosine of the angle of incidence, in `[0, 1]`; `eta` the index behind the interface over the index
-/// before it. 1 at total internal reflection.
+/// `cos_i` is the cosine of the angle of incidence, in `[0, 1]`; `eta` the index behind the interface over
+/// the index before it. 1 at total internal reflection.
 #[inline]
 pub(crate) fn fresnel_dielectric(cos_i: f32, eta: f32) -> f32 {
     let sin2_t = (1.0 - cos_i * cos_i) / (eta * eta);
@@ -34,8 +34,8 @@ pub(crate) fn refract(wo: Vec3, m: Vec3, eta: f32) -> Option<Vec3> {
 pub(crate) enum Fresnel {
     /// A metal's complex refractive index.
     Conductor { n: Vec3, k: Vec3 },
-    /// Schlick's curve with any exponent, multiplied by `at_82` at 82 degrees (Hoffman, "Fresnel Equations Considered
-    /// Harmful", 2019; Kutz et al., "Novel aspects of the Adobe Standard Material", 2021).
+    /// Schlick's curve with any exponent, multiplied by `at_82` at 82 degrees (Hoffman, "Fresnel Equations
+    /// Considered Harmful", 2019; Kutz et al., "Novel aspects of the Adobe Standard Material", 2021).
     Schlick { at_0: Vec3, at_82: Vec3, at_90: Vec3, exponent: f32 },
 }
 

@@ -30,8 +30,8 @@ pub(crate) enum LobeKind {
     Microfacet(Microfacet),
 }
 
-/// The directions a lobe is asked about. `wo.z` is positive; `inside` says whether the outside of the surface is on
-/// the other side.
+/// The directions a lobe is asked about. `wo.z` is positive; `inside` says whether the outside of the surface
+/// is on the other side.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Outgoing {
     pub(crate) wo: Vec3,
@@ -139,9 +139,9 @@ impl Lobe {
 
     /// The share of energy that goes on to what `layer` puts below, the lobe's share included.
     ///
-    /// Diffuse reflection and metals let nothing through, a dielectric what it doesn't reflect (as in MaterialX's own
-    /// lobes), a retro-reflective lobe what it doesn't send back: its tint is its strength, what is missing was never
-    /// caught.
+    /// Diffuse reflection and metals let nothing through, a dielectric what it doesn't reflect (as in
+    /// MaterialX's own lobes), a retro-reflective lobe what it doesn't send back: its tint is its strength,
+    /// what is missing was never caught.
     #[inline]
     pub(crate) fn throughput(&self, out: Outgoing) -> Vec3 {
         let lobe = match &self.kind {

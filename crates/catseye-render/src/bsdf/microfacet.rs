@@ -55,8 +55,8 @@ impl Microfacet {
         self.fresnel.at(wo.z.clamp(0.0, 1.0))
     }
 
-    /// The share of energy that is reflected. Approximate: Schlick's curve of exponent 5 through the ends of the
-    /// Fresnel curve.
+    /// The share of energy that is reflected. Approximate: Schlick's curve of exponent 5 through the ends of
+    /// the Fresnel curve.
     pub(crate) fn albedo(&self, wo: Vec3) -> Vec3 {
         if self.smooth {
             return self.dirac_weight(wo);

@@ -17,14 +17,17 @@ pub(crate) struct OrenNayar {
 
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Form {
-    /// The qualitative model, Oren and Nayar, "Generalization of Lambert's Reflectance Model", SIGGRAPH 1994, Eq. 27.
+    /// The qualitative model, Oren and Nayar, "Generalization of Lambert's Reflectance Model", SIGGRAPH 1994,
+    /// Eq. 27.
     Qualitative { a: f32, b: f32 },
-    /// EON: Portsmouth, Kutz and Hill, "EON: A Practical Energy-Preserving Rough Diffuse BRDF", JCGT 14(1), 2025.
+    /// EON: Portsmouth, Kutz and Hill, "EON: A Practical Energy-Preserving Rough Diffuse BRDF", JCGT 14(1),
+    /// 2025.
     EnergyPreserving { a: f32, roughness: f32 },
 }
 
 impl OrenNayar {
-    /// `roughness` is the slope's standard deviation, or in the energy-preserving form EON's roughness in `[0, 1]`.
+    /// `roughness` is the slope's standard deviation, or in the energy-preserving form EON's roughness in
+    /// `[0, 1]`.
     pub(crate) fn new(color: Vec3, roughness: f32, energy_compensation: bool) -> Self {
         let form = if energy_compensation {
             let roughness = roughness.clamp(0.0, 1.0);

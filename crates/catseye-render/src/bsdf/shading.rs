@@ -6,9 +6,11 @@ use super::lobe::Outgoing;
 use super::tree::{Bsdf, MAX_LOBES};
 use crate::Frame;
 
-/// The BSDF of a surface point for one outgoing direction: lobes' shares and selection probabilities are settled.
+/// The BSDF of a surface point for one outgoing direction: lobes' shares and selection probabilities are
+/// settled.
 ///
-/// Directions are in world space. The surface is two-sided: the frame's normal must point to the side of `wo`.
+/// Directions are in world space. The surface is two-sided: the frame's normal must point to the side of
+/// `wo`.
 #[derive(Clone, Debug)]
 pub struct Shading<'a> {
     bsdf: &'a Bsdf,
@@ -40,7 +42,8 @@ impl BsdfSample {
 }
 
 impl Bsdf {
-    /// The BSDF at a point with the given shading frame, seen from `wo_world` on the side of the frame's normal.
+    /// The BSDF at a point with the given shading frame, seen from `wo_world` on the side of the frame's
+    /// normal.
     ///
     /// `inside` says whether that side is the inside of the surface, which matters to dielectrics only.
     #[must_use]
@@ -86,8 +89,8 @@ impl Shading<'_> {
         own.unwrap_or(self.frame).to_world(wi_local)
     }
 
-    /// f |cos| per channel, and the density per steradian with which [`Shading::sample`] chooses `wi_world`. Dirac
-    /// lobes don't take part.
+    /// f |cos| per channel, and the density per steradian with which [`Shading::sample`] chooses `wi_world`.
+    /// Dirac lobes don't take part.
     #[must_use]
     pub fn eval_pdf(&self, wi_world: Vec3) -> (Vec3, f32) {
         let wi_common = self.frame.to_local(wi_world);

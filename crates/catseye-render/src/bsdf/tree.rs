@@ -85,7 +85,8 @@ impl Bsdf {
         shares
     }
 
-    /// Hands `factor` down the tree; returns the share of energy that passes the closure (MaterialX's `throughput`).
+    /// Hands `factor` down the tree; returns the share of energy that passes the closure (MaterialX's
+    /// `throughput`).
     fn spread(
         &self,
         node: &Node,

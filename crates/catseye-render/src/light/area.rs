@@ -30,8 +30,8 @@ enum Shape {
 }
 
 impl AreaLight {
-    /// A rectangle around `centre`, given by the vectors from the centre to the middles of two sides, at right angles.
-    /// It shines to the side of `u` cross `v`.
+    /// A rectangle around `centre`, given by the vectors from the centre to the middles of two sides, at
+    /// right angles. It shines to the side of `u` cross `v`.
     #[must_use]
     pub fn rectangle(centre: Vec3, u: Vec3, v: Vec3, radiance: Vec3) -> Self {
         let normal = u.cross(v).normalize_or(Vec3::Y);

@@ -17,8 +17,8 @@ pub struct DistantLight {
 }
 
 impl DistantLight {
-    /// A disk in the given direction (unit vector towards it) of the given angular radius (radians, above 0; the
-    /// moon's is 0.0045), which brings `irradiance` to a plane that faces it.
+    /// A disk in the given direction (unit vector towards it) of the given angular radius (radians, above 0;
+    /// the moon's is 0.0045), which brings `irradiance` to a plane that faces it.
     #[must_use]
     pub fn new(direction: Vec3, angular_radius: f32, irradiance: Vec3) -> Self {
         let half_sin = (0.5 * angular_radius).sin();

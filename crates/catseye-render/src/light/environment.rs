@@ -13,8 +13,8 @@ pub enum Environment {
     Constant(Vec3),
     /// A smooth sky.
     Sky(Sky),
-    /// A picture of the surroundings, the only kind that light sampling looks at: the others are smooth, and rays
-    /// that surfaces scatter find them well enough.
+    /// A picture of the surroundings, the only kind that light sampling looks at: the others are smooth, and
+    /// rays that surfaces scatter find them well enough.
     Image(LatLong),
 }
 
@@ -59,8 +59,8 @@ impl Sky {
     }
 }
 
-/// The strength of the star in a direction, in `[0, 1]`; nearly always 0. Few are bright, and none stands in the haze
-/// of the horizon.
+/// The strength of the star in a direction, in `[0, 1]`; nearly always 0. Few are bright, and none stands in
+/// the haze of the horizon.
 fn star(direction: Vec3) -> f32 {
     /// Cells of the sky along the edge of a cube around it; each may hold a star.
     const CELLS: f32 = 260.0;

@@ -7,8 +7,8 @@ use glam::Vec3;
 use super::strength;
 use crate::Image;
 
-/// A latitude-longitude picture of the sphere of directions: its middle looks along -z, its right half is +x, its
-/// top +y.
+/// A latitude-longitude picture of the sphere of directions: its middle looks along -z, its right half is +x,
+/// its top +y.
 #[derive(Clone, Debug)]
 pub struct LatLong {
     image: Image,

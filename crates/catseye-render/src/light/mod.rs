@@ -40,16 +40,16 @@ pub trait Light: Debug + Send + Sync {
     /// A direction from `position` to the light for two uniform numbers; `None` where it doesn't shine.
     fn sample(&self, position: Vec3, u: [f32; 2]) -> Option<LightSample>;
 
-    /// How far along the ray the light is, infinite for an environment; `None` if the ray doesn't meet it before its
-    /// end, and always for a light without extent.
+    /// How far along the ray the light is, infinite for an environment; `None` if the ray doesn't meet it
+    /// before its end, and always for a light without extent.
     fn distance(&self, ray: &Ray) -> Option<f32>;
 
-    /// Radiance that reaches `position` along `wi`, a direction in which the light lies, and the density with which
-    /// [`Light::sample`] chooses `wi`.
+    /// Radiance that reaches `position` along `wi`, a direction in which the light lies, and the density with
+    /// which [`Light::sample`] chooses `wi`.
     fn radiance_pdf(&self, position: Vec3, wi: Vec3) -> (Vec3, f32);
 
-    /// About how much irradiance the light brings to `position`. 0 takes it out of light sampling: then only rays
-    /// that meet it by chance bring its light.
+    /// About how much irradiance the light brings to `position`. 0 takes it out of light sampling: then only
+    /// rays that meet it by chance bring its light.
     fn importance(&self, position: Vec3) -> f32;
 }
 

@@ -18,9 +18,17 @@ pub struct SphereLight {
     pub beam: Option<Beam>,
 }
 
-/// An elliptical beam: a Gaussian on a screen in front of the lamp, nothing behind.
+/// A headlamp's beam, nothing behind it: an elliptical Gaussian on a screen in front of the lamp, and another
+/// one on top of it that makes the hot spot.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Beam {
+    wide: Cone,
+    /// With its intensity in units of the wide part's.
+    hot_spot: Option<(Cone, f32)>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq)]
+struct Cone {
     /// `z` is the axis, `x` horizontal.
     frame: Frame,
     /// ln 2 over the squared tangent of the angle of half the intensity, horizontal and vertical.
@@ -28,15 +36,32 @@ pub struct Beam {
 }
 
 impl Beam {
-    /// A beam along `axis` (unit length) whose intensity is half at the given angles (radians, below a right angle)
-    /// to the side and up.
+    /// A beam along `axis` (unit length) whose intensity is half at the given angles (radians, below a right
+    /// angle) to the side and up.
     #[must_use]
     pub fn new(axis: Vec3, half_angles: [f32; 2]) -> Self {
+        Self { wide: Cone::new(axis, half_angles), hot_spot: None }
+    }
+
+    /// The beam with a hot spot of so many times its intensity along another axis.
+    #[must_use]
+    pub fn with_hot_spot(self, axis: Vec3, half_angles: [f32; 2], intensity: f32) -> Self {
+        Self { hot_spot: Some((Cone::new(axis, half_angles), intensity)), ..self }
+    }
+
+    /// Intensity in a direction away from the lamp, relative to the wide part's on its axis.
+    fn profile(&self, direction: Vec3) -> f32 {
+        let spot = self.hot_spot.map_or(0.0, |(cone, intensity)| intensity * cone.profile(direction));
+        self.wide.profile(direction) + spot
+    }
+}
+
+impl Cone {
+    fn new(axis: Vec3, half_angles: [f32; 2]) -> Self {
         let frame = Frame::from_normal_tangent(axis, axis.cross(Vec3::Y));
         Self { frame, sharpness: half_angles.map(|a| std::f32::consts::LN_2 / a.tan().powi(2)) }
     }
 
-    /// Intensity relative to the axis in a direction away from the lamp.
     fn profile(&self, direction: Vec3) -> f32 {
         let d = self.frame.to_local(direction);
         if d.z <= 0.0 {
@@ -54,7 +79,8 @@ impl SphereLight {
         Self { sphere, radiance, beam: None }
     }
 
-    /// A lamp with a beam whose intensity on the axis is given (flux per steradian, candela in photometric units).
+    /// A lamp with a beam whose intensity on the axis is given (flux per steradian, candela in photometric
+    /// units).
     #[must_use]
     pub fn headlamp(sphere: Sphere, intensity: Vec3, beam: Beam) -> Self {
         let radiance = intensity / (PI * sphere.radius * sphere.radius);

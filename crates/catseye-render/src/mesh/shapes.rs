@@ -51,9 +51,9 @@ impl Mesh {
         mesh
     }
 
-    /// The surface that `profile`, points (radius, height), sweeps out around the y axis; outside is to the right of
-    /// the profile's direction of travel when it runs upwards. Normals are smooth around the axis and flat along
-    /// each piece of the profile.
+    /// The surface that `profile`, points (radius, height), sweeps out around the y axis; outside is to the
+    /// right of the profile's direction of travel when it runs upwards. Normals are smooth around the axis
+    /// and flat along each piece of the profile.
     #[must_use]
     pub fn lathe(profile: &[[f32; 2]], segments: u32) -> Self {
         let mut mesh = Self::default();

@@ -2,33 +2,38 @@
 
 use std::f32::consts::{FRAC_PI_2, PI, TAU};
 
-use catseye::Model;
 use catseye_materialx::Material;
 use glam::Vec3;
 
+use super::Lighting;
 use crate::light::{AreaLight, Environment, SphereLight};
-use crate::{Bsdf, Camera, Error, Frame, Mesh, Scene, SceneBuilder, Shading, Sphere, ToneMap};
+use crate::{Bsdf, Camera, Error, Frame, Mesh, PictureInfo, Scene, SceneBuilder, Sphere, ToneMap};
 
 /// Where the camera stands.
 const EYE: Vec3 = Vec3::new(0.0, 2.1, 11.0);
 /// What it looks at.
 const TARGET: Vec3 = Vec3::new(0.0, 0.78, 0.0);
-/// Angle between camera and headlamp, seen from the target: the first observation angle of ASTM D4956's tables.
-const OBSERVATION_ANGLE: f32 = 0.2 * PI / 180.0;
-/// Irradiance at the target by the headlamp for a material that doesn't send much of it back.
-const LAMP_IRRADIANCE: f32 = 0.8;
-/// Radiance that the lamp is dimmed to where more would come back.
-const LAMP_RETURN: f32 = 0.7;
+/// Angle in degrees between camera and headlamp, seen from the target, where none is asked for: the first
+/// observation angle of ASTM D4956's tables.
+const LAMP_DEG: f32 = 0.2;
+/// Irradiance that the headlamp brings to a surface at the target that faces it, the same for all materials:
+/// sheeting with an `R_A` of 250 cd/lx/m2 shines with the radiance 75, a lobe of roughness 0.5 with 0.2,
+/// about as the white ball.
+const LAMP_IRRADIANCE: f32 = 0.3;
+/// Radius of the lamp, and of one that a perfect retro-reflector shows as bright as sheeting of about 450
+/// cd/lx/m2.
+const LAMP_RADIUS: f32 = 0.006;
+const WIDE_LAMP_RADIUS: f32 = 0.3;
+/// How far the lamp stands behind the camera's pinhole, through which it shines where they are in line.
+const LAMP_BEHIND: f32 = 1e-3;
 
-/// Radiance that a path may bring of indirect light, about that of the white ball: the lamp is tiny and would make
-/// specks.
+/// Radiance that a path may bring of indirect light, about that of the white ball: the lamp is tiny and would
+/// make specks.
 const INDIRECT_LIMIT: f32 = 0.6;
 
-pub(crate) fn scene(materials: [&Material; 2], model: Model) -> Result<Scene, Error> {
+pub(crate) fn scene(materials: [&Material; 2], lighting: &Lighting) -> Result<Scene, Error> {
     let mut builder = SceneBuilder::new(Camera::perspective(EYE, TARGET, Vec3::Y, 0.235));
-    let bsdfs = materials.map(|material| Bsdf::with_model(&material.surface.bsdf, model));
-    let headlamp = headlamp(&bsdfs.into_iter().collect::<Result<Vec<_>, _>>()?);
-    let [sphere, sheet] = materials.map(|material| builder.materialx(material, model));
+    let [sphere, sheet] = materials.map(|material| builder.materialx(material, lighting.model));
     let ground = builder.material(Bsdf::matte(Vec3::splat(0.16)));
     let white = builder.material(Bsdf::matte(Vec3::splat(0.8)));
 
@@ -36,37 +41,27 @@ pub(crate) fn scene(materials: [&Material; 2], model: Model) -> Result<Scene, Er
     builder.mesh(folded_sheet(), sheet?);
     builder.sphere(Sphere { centre: Vec3::new(0.12, 0.2, 1.0), radius: 0.2 }, white);
     builder.mesh(studio(), ground);
-    builder.light(headlamp);
+    let mirrors = builder.has_retro_mirror();
+    let lamp_deg = lighting.lamp_deg.unwrap_or(if mirrors { 0.0 } else { LAMP_DEG });
+    builder.light(headlamp(lamp_deg, if mirrors { WIDE_LAMP_RADIUS } else { LAMP_RADIUS }));
     add_panels(&mut builder);
     builder.light(Environment::Constant(Vec3::new(0.03, 0.035, 0.045)));
     builder.indirect_limit(INDIRECT_LIMIT);
-    builder.tone_map(ToneMap { exposure_ev: 0.4, white: 4.0, glare: 0.01 });
+    builder.tone_map(ToneMap { exposure_ev: 3.0, white: 2400.0, glare: 0.001 });
+    builder.info(PictureInfo {
+        units: format!("radiance, the headlamp's irradiance {LAMP_IRRADIANCE}"),
+        lamp_deg: Some(lamp_deg),
+        ..PictureInfo::default()
+    });
     builder.build()
 }
 
-/// The lamp beside the camera, or behind it for a perfect retro-reflector, which shows nothing but the camera itself:
-/// then it shines through the pinhole, as a beam splitter would let it.
-fn headlamp(bsdfs: &[Bsdf]) -> SphereLight {
+fn headlamp(lamp_deg: f32, radius: f32) -> SphereLight {
     let wo = (EYE - TARGET).normalize();
-    // A surface 30 degrees from the line of sight.
-    let normal = Frame::from_normal(wo).to_world(Vec3::new(0.5, 0.0, 0.75_f32.sqrt()));
-    let shadings = || bsdfs.iter().map(|bsdf| bsdf.at(Frame::from_normal(normal), wo, false));
-    let perfect = |shading: Shading<'_>| {
-        (0..64).any(|i| {
-            let u = std::array::from_fn(|k| sobol_burley::sample(i, k as u32, 0));
-            shading.sample(u).is_some_and(|s| s.is_dirac && s.wi.dot(wo) > 0.999)
-        })
-    };
-    if shadings().any(perfect) {
-        return SphereLight::new(Sphere { centre: EYE + wo * 0.1, radius: 0.05 }, Vec3::splat(LAMP_RETURN));
-    }
-    let centre = EYE + Vec3::X * (EYE.distance(TARGET) * OBSERVATION_ANGLE.tan());
-    let wi = (centre - TARGET).normalize();
-    let most = shadings().map(|shading| shading.eval_pdf(wi).0.max_element()).fold(1e-6, f32::max);
-    let irradiance = LAMP_IRRADIANCE.min(LAMP_RETURN / most);
-    let intensity = irradiance * centre.distance_squared(TARGET);
-    let sphere = Sphere { centre, radius: 0.006 };
-    SphereLight::new(sphere, Vec3::splat(intensity / (PI * sphere.radius * sphere.radius)))
+    let aside = Vec3::X * (EYE.distance(TARGET) * lamp_deg.to_radians().tan());
+    let sphere = Sphere { centre: EYE + aside + wo * (LAMP_BEHIND + radius), radius };
+    let intensity = LAMP_IRRADIANCE * sphere.centre.distance_squared(TARGET);
+    SphereLight::new(sphere, Vec3::splat(intensity / (PI * radius * radius)))
 }
 
 /// Soft lights: a warm one from the left, a cool one from behind on the right.

@@ -17,7 +17,7 @@ const MARKING: f32 = 0.003;
 
 /// Adds the road and the line in its middle.
 pub(crate) fn add(builder: &mut SceneBuilder) {
-    let asphalt = builder.material(Bsdf::matte(Vec3::new(0.17, 0.17, 0.175)));
+    let asphalt = builder.material(Bsdf::matte(Vec3::new(0.2, 0.2, 0.205)));
     builder.mesh(surface(), asphalt);
     let paint = builder.material(Bsdf::matte(PAINT));
     for i in 0..40 {

@@ -11,7 +11,8 @@ use crate::{Bsdf, Error, Mesh, SceneBuilder};
 const RADIUS: f32 = 0.95;
 /// Height of the panel's centre above the ground.
 const HEIGHT: f32 = 1.95;
-/// Distance between layers of sheeting: thicker than in life, so that they can be told apart in single precision.
+/// Distance between layers of sheeting: thicker than in life, so that they can be told apart in single
+/// precision.
 const LAYER: f32 = 0.003;
 
 /// Adds a triangular warning sign whose post stands at `foot`, turned to the camera.

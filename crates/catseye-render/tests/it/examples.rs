@@ -1,7 +1,8 @@
 //! MaterialX's own example materials load and render; what doesn't says why.
 //!
-//! Runs where `MATERIALX_SEARCH_PATH` names a checkout of MaterialX (with `libraries` and `resources`). No package brings
-//! one, so `CATSEYE_REQUIRE=all`, which asks for what can be installed, does not ask for it. `--nocapture` prints the table.
+//! Runs where `MATERIALX_SEARCH_PATH` names a checkout of MaterialX (with `libraries` and `resources`). No
+//! package brings one, so `CATSEYE_REQUIRE=all`, which asks for what can be installed, does not ask for it.
+//! `--nocapture` prints the table.
 
 use std::{
     fs,

@@ -29,7 +29,8 @@ const GEOMETRIES: [[f64; 3]; 8] = [
     [2.0, 40.0, 0.0],
 ];
 
-/// Receiver and source for coplanar geometry: a turn of the specimen by epsilon is one of the instrument by -epsilon.
+/// Receiver and source for coplanar geometry: a turn of the specimen by epsilon is one of the instrument by
+/// -epsilon.
 fn directions([alpha, beta, epsilon]: [f64; 3]) -> [Vec3<f64>; 2] {
     [beta + alpha, beta].map(|angle| Vec3::from_angles(angle.to_radians(), -epsilon.to_radians()))
 }
@@ -61,14 +62,28 @@ fn case(
 const VIEW_DEPENDENT: &str = r#"<materialx version="1.39">
   <viewdirection name="view" type="vector3" />
   <normal name="up" type="vector3" />
-  <dotproduct name="cosine" type="float"><input name="in1" type="vector3" nodename="view" /><input name="in2" type="vector3" nodename="up" /></dotproduct>
+  <dotproduct name="cosine" type="float">
+    <input name="in1" type="vector3" nodename="view" />
+    <input name="in2" type="vector3" nodename="up" />
+  </dotproduct>
   <absval name="facing" type="float"><input name="in" type="float" nodename="cosine" /></absval>
-  <power name="cube" type="float"><input name="in1" type="float" nodename="facing" /><input name="in2" type="float" value="3" /></power>
+  <power name="cube" type="float">
+    <input name="in1" type="float" nodename="facing" />
+    <input name="in2" type="float" value="3" />
+  </power>
   <convert name="tint" type="color3"><input name="in" type="float" nodename="cube" /></convert>
-  <retro_reflective_bsdf name="beads" type="BSDF"><input name="roughness_u" type="float" value="0.02" /><input name="tint" type="color3" nodename="tint" /></retro_reflective_bsdf>
+  <retro_reflective_bsdf name="beads" type="BSDF">
+    <input name="roughness_u" type="float" value="0.02" />
+    <input name="tint" type="color3" nodename="tint" />
+  </retro_reflective_bsdf>
   <uniform_edf name="glow" type="EDF"><input name="color" type="color3" value="3, 2, 1" /></uniform_edf>
-  <surface name="surface" type="surfaceshader"><input name="bsdf" type="BSDF" nodename="beads" /><input name="edf" type="EDF" nodename="glow" /></surface>
-  <surfacematerial name="m" type="material"><input name="surfaceshader" type="surfaceshader" nodename="surface" /></surfacematerial>
+  <surface name="surface" type="surfaceshader">
+    <input name="bsdf" type="BSDF" nodename="beads" />
+    <input name="edf" type="EDF" nodename="glow" />
+  </surface>
+  <surfacematerial name="m" type="material">
+    <input name="surfaceshader" type="surfaceshader" nodename="surface" />
+  </surfacematerial>
 </materialx>"#;
 
 fn cases() -> Vec<Case> {

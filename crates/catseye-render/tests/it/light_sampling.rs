@@ -95,8 +95,8 @@ fn both_strategies_together_count_light_once() {
 
 #[test]
 fn paths_of_several_scatterings_choose_lights_without_bias() {
-    // Inside a sphere of albedo a with lights of intensity I the radiance of direct and all later light is known:
-    // the walls of an integrating sphere are lit evenly by the light that they scatter.
+    // Inside a sphere of albedo a with lights of intensity I the radiance of direct and all later light is
+    // known: the walls of an integrating sphere are lit evenly by the light that they scatter.
     let (albedo, radius) = (0.5_f32, 2.0);
     let camera = Camera::perspective(Vec3::new(0.0, 0.0, 1.0), Vec3::NEG_Z, Vec3::Y, 0.4);
     let mut builder = SceneBuilder::new(camera);

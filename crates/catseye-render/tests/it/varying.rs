@@ -1,4 +1,5 @@
-//! What a document makes vary over a surface varies in the picture, and lobes that are asked to send light back do.
+//! What a document makes vary over a surface varies in the picture, and lobes that are asked to send light
+//! back do.
 
 use catseye::Model;
 use catseye_materialx::{Closure, Document, Material};
@@ -12,7 +13,9 @@ use crate::common::{outgoing, picture, points};
 fn material(nodes: &str, surface: &str) -> Material {
     let text = format!(
         r#"<materialx version="1.39">{nodes}<surface name="surface" type="surfaceshader">{surface}</surface>
-        <surfacematerial name="m" type="material"><input name="surfaceshader" type="surfaceshader" nodename="surface" /></surfacematerial></materialx>"#
+        <surfacematerial name="m" type="material">
+          <input name="surfaceshader" type="surfaceshader" nodename="surface" />
+        </surfacematerial></materialx>"#
     );
     Document::parse(&text, "test.mtlx")
         .and_then(|document| document.material(None))
@@ -30,8 +33,15 @@ fn scene(material: &Material) -> Scene {
 }
 
 const RAMP: &str = r#"<position name="at" type="vector3" />
-    <extract name="x" type="float"><input name="in" type="vector3" nodename="at" /><input name="index" type="integer" value="0" /></extract>
-    <smoothstep name="step" type="float"><input name="in" type="float" nodename="x" /><input name="low" type="float" value="-0.1" /><input name="high" type="float" value="0.1" /></smoothstep>
+    <extract name="x" type="float">
+      <input name="in" type="vector3" nodename="at" />
+      <input name="index" type="integer" value="0" />
+    </extract>
+    <smoothstep name="step" type="float">
+      <input name="in" type="float" nodename="x" />
+      <input name="low" type="float" value="-0.1" />
+      <input name="high" type="float" value="0.1" />
+    </smoothstep>
     <convert name="grey" type="color3"><input name="in" type="float" nodename="step" /></convert>"#;
 
 /// Mean values left and right of the middle.
@@ -42,12 +52,16 @@ fn halves(material: &Material) -> [f32; 2] {
 
 #[test]
 fn colour_emission_and_opacity_vary() {
-    let diffuse = r#"<oren_nayar_diffuse_bsdf name="d" type="BSDF"><input name="color" type="color3" nodename="grey" /></oren_nayar_diffuse_bsdf>"#;
+    let diffuse = r#"<oren_nayar_diffuse_bsdf name="d" type="BSDF">
+      <input name="color" type="color3" nodename="grey" />
+    </oren_nayar_diffuse_bsdf>"#;
     let [left, right] =
         halves(&material(&format!("{RAMP}{diffuse}"), r#"<input name="bsdf" type="BSDF" nodename="d" />"#));
     assert!(left < 0.01 && right > 0.9, "colour: {left} {right}");
 
-    let glow = r#"<uniform_edf name="e" type="EDF"><input name="color" type="color3" nodename="grey" /></uniform_edf>"#;
+    let glow = r#"<uniform_edf name="e" type="EDF">
+      <input name="color" type="color3" nodename="grey" />
+    </uniform_edf>"#;
     let [left, right] =
         halves(&material(&format!("{RAMP}{glow}"), r#"<input name="edf" type="EDF" nodename="e" />"#));
     assert!(left == 0.0 && (right - 1.0).abs() < 1e-5, "emission: {left} {right}");
