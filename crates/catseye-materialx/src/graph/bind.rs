@@ -6,7 +6,7 @@ use crate::{
     error::{Error, Place, listed, quoted},
     graph::{
         Feed, Graph, MOST_PROBLEMS, NodeRef,
-        input::{check_connection, constant, one_of, unknown_category},
+        input::{category, check_connection, constant, one_of, unknown_category},
     },
     nodes::{
         NodeDef,
@@ -39,7 +39,7 @@ pub(crate) struct Input<'a> {
 /// Whether there are built-in nodes of an element's category and type.
 pub(crate) fn is_built_in(element: &Element) -> bool {
     let ty = element.attribute("type").and_then(Type::parse);
-    ty.is_some_and(|ty| of_type(element.tag(), ty).next().is_some())
+    ty.is_some_and(|ty| of_type(category(element), ty).next().is_some())
 }
 
 impl<'a> Node<'a> {
@@ -191,7 +191,7 @@ fn definitions(graph: &Graph<'_>, node: &Element) -> Result<(Type, Vec<&'static 
     }
     let name = node.require("type")?;
     let ty = Type::parse(name).ok_or_else(|| unknown_category(graph, node))?;
-    let defs: Vec<&NodeDef> = of_type(node.tag(), ty).collect();
+    let defs: Vec<&NodeDef> = of_type(category(node), ty).collect();
     if defs.is_empty() { Err(unknown_category(graph, node)) } else { Ok((ty, defs)) }
 }
 

@@ -9,6 +9,16 @@ use crate::{
     value::{Type, Value, expected},
 };
 
+/// The category of a node: that of the built-in definition that it names, which counts more than its own.
+pub(crate) fn category(node: &Element) -> &str {
+    let named = || {
+        let rest = node.attribute("nodedef")?.strip_prefix("ND_")?;
+        rest.match_indices('_').rev().map(|(end, _)| &rest[..end]).find(|name| !of_category(name).is_empty())
+    };
+    let own = node.tag();
+    if of_category(own).is_empty() { own } else { named().unwrap_or(own) }
+}
+
 /// The type of a node's output.
 pub(crate) fn output_type(
     graph: &Graph<'_>,
@@ -31,7 +41,7 @@ pub(crate) fn output_type(
         what: "a connection to a node of several outputs without output=\"...\"".to_owned(),
         instead: "name the output where it is connected".to_owned(),
     })?;
-    if let Some(def) = of_type(element.tag(), ty).next() {
+    if let Some(def) = of_type(category(element), ty).next() {
         let known = def.outputs.iter().find(|(name, _)| *name == output);
         return known.map(|(_, ty)| *ty).ok_or_else(|| no_output(element, output));
     }

@@ -164,6 +164,12 @@ fn values_of_other_types() {
         ),
         // The comparison itself.
         ("boolean", r#"<ifgreater name="q" type="boolean" />"#, [1.0; 3]),
+        // The definition that a node names counts more than its category.
+        (
+            "float",
+            r#"<ifgreater name="q" type="float" nodedef="ND_ifgreatereq_float"><input name="value2" type="float" value="1" /><input name="in1" type="float" value="0.75" /></ifgreater>"#,
+            [0.75; 3],
+        ),
         // A float is scaled by 4096 before it is hashed: cell 1024.
         (
             "float",

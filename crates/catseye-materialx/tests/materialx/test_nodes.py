@@ -19,10 +19,13 @@ from support import missing, parse, report
 TRIALS = 100
 PICTURE = "picture.png"
 SURFACE_POINTS = 32
+LIBRARY_TRIALS = 2
 # Greatest difference from MaterialX's values, relative to those beyond 1. Nodegraphs run in our own arithmetic: what is
 # left is another order of operations. GLSL promises no exact roundings either.
 GRAPH_BOUND = 2e-5
 GLSL_BOUND = 5e-6
+# Graphs of some dozen nodes.
+LIBRARY_BOUND = 5e-5
 GLSL_BOUNDS = {
     # Mesa's polynomials for them are this far off.
     "acos": 5e-4,
@@ -42,6 +45,15 @@ ELSEWHERE = {
     "image": "MaterialX leaves it to the texture unit",
     "swizzle": "MaterialX 1.39 no longer has it",
 }
+
+# What of MaterialX's library is not compared, and why.
+NOT_COMPARED = {
+    "UsdPrimvarReader": "no mesh of ours has properties",
+    "tiledhexagons": "compares the root of a negative number",
+}
+# What of it is not read: graphs with constants that are matrices, and one that needs derivatives.
+UNREAD = {"acescg_to_lin_rec709", "adobergb_to_lin_rec709", "bump", "g22_ap1_to_lin_rec709", "lin_adobergb_to_lin_rec709",
+          "lin_displayp3_to_lin_rec709", "srgb_displayp3_to_lin_rec709"}
 
 
 def nonzero(shape, rng):
@@ -96,8 +108,8 @@ DOMAINS = {
 }
 
 
-def sample(nodedef, port, rng, trial):
-    """A value for an input; each of an enumeration's in turn."""
+def sample(nodedef, port, rng, trial, numbers=wide):
+    """A value for an input: each of an enumeration's in turn, else random."""
     category, name, kind = nodedef.getNodeString(), port.getName(), port.getType()
     choices = stock.choices(port)
     if choices:
@@ -114,7 +126,7 @@ def sample(nodedef, port, rng, trial):
             held = {"texcoord": 1, "geomcolor": 1, "tangent": 1, "bitangent": 1}.get(category)
             return rng.integers(0, held or stock.WIDTHS[nodedef.getActiveInput("in").getType()], width)
         return rng.integers(0 if name == "octaves" else -2, 6, width)
-    return DOMAINS.get((category, name), wide)(width, rng)
+    return DOMAINS.get((category, name), numbers)(width, rng)
 
 
 def by_graph(nodedef):
@@ -333,6 +345,34 @@ class Nodes(unittest.TestCase):
                 self.compare(nodedef, own, theirs[:, :width], GLSL_BOUND, values)
                 cases += SURFACE_POINTS
         self.none_wrong("geometry", cases, nodedefs)
+
+    def test_values_of_library(self):
+        """Nodes that MaterialX's library defines as graphs and we don't build in, read with it, at points of an object."""
+        module, context = self.gpu()
+        surface = module.Surface(context, SURFACE_POINTS, self.rng)
+        nodedefs = [d for d in self.library.getNodeDefs() if stock.is_pattern(d) and d.getImplementation("genglsl")
+                    and by_graph(d) and d.getNodeString() not in self.categories | NOT_COMPARED.keys()
+                    and all(port.getType() != "filename" for port in d.getActiveInputs())]
+        folder = pathlib.Path(mx.getDefaultDataSearchPath().asString())
+        cases, unread = [], set()
+        for nodedef, trial in itertools.product(nodedefs, range(LIBRARY_TRIALS)):
+            # What they do with numbers below 0 is mostly what the GPU leaves undefined; jitter is an angle of 90,000 degrees.
+            values = {port.getName(): sample(nodedef, port, self.rng, trial, positive) for port in nodedef.getActiveInputs()
+                      if not port.hasAttribute("defaultgeomprop") and port.getName() != "jitter"}
+            cases.append((nodedef, values, stock.node(nodedef, values)))
+        found = stock.ours([body for _, _, body in cases], surface.points, folder)
+        for (nodedef, values, body), own in zip(cases, found, strict=True):
+            if isinstance(own, str):
+                unread.add(nodedef.getNodeString())
+                self.assertIn("its implementation is code for another renderer", own)
+                continue
+            document = parse(stock.document(body), self.library)
+            for i, output in enumerate(stock.outputs(nodedef)):
+                width = stock.WIDTHS[output.getType()]
+                theirs = surface.run(document.getOutput(f"o{i}"))
+                self.compare(nodedef, own[i, :, :width], theirs[:, :width], LIBRARY_BOUND, values)
+        self.assertEqual(unread, UNREAD)
+        self.none_wrong("library", len(cases) * SURFACE_POINTS, nodedefs)
 
 
 if __name__ == "__main__":
