@@ -4,19 +4,19 @@
 //
 //   import { addCatseye } from "./catseye.mjs";
 //   const library = mx.loadStandardLibraries(context);
-//   addCatseye(mx, library);
+//   await addCatseye(mx, library);
 //   document.setDataLibrary(library);
 
 /** The library's files, from the folder `libraries` on. */
 export const FILES = {};
 
 /** Adds the nodes to a data library, and their code to the file system in memory, under the folder that MaterialX's own is in. */
-export function addCatseye(mx, library, root = "/libraries") {
+export async function addCatseye(mx, library, root = "/libraries") {
   for (const [path, text] of Object.entries(FILES)) {
     const full = `${root}/${path}`;
     if (path.endsWith(".mtlx")) {
       const document = mx.createDocument();
-      mx.readFromXmlString(document, text, "");
+      await mx.readFromXmlString(document, text, "");
       // Implementations look for their code beside the document.
       document.setSourceUri(full);
       library.importLibrary(document);

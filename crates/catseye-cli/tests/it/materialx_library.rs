@@ -151,6 +151,7 @@ fn what_is_missing_fails_where_everything_is_required() {
     let files = [
         ("test_generate.py", "Generate.test_glsl_compiles"),
         ("test_fallback.py", "Fallback.test_the_surface_is_translated"),
+        ("test_hosts.py", "Web.test_the_module_brings_the_nodes"),
         ("test_nodes.py", "Nodes"),
         ("test_values.py", "Values"),
         ("test_environment.py", "Environment"),

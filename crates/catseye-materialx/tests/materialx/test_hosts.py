@@ -1,13 +1,17 @@
-"""The exported library in programs that nobody of the project wrote: USD, and a reader of MDL."""
+"""The exported library in programs that nobody of the project wrote: USD, a reader of MDL, MaterialX in WebAssembly."""
 
 import json
 import os
+import pathlib
 import subprocess
 import sys
 import tempfile
 import unittest
 
-from support import LIBRARIES, PRESETS, missing
+from support import HERE, LIBRARIES, MATERIALS, PRESETS, missing, run, tool
+
+# MaterialX 1.39.4 in WebAssembly.
+WEB_PACKAGE = "@needle-tools/materialx@1.4.6"
 
 # In a process of its own: the package brings its own MaterialX.
 USD = """
@@ -65,6 +69,34 @@ class Mdl(unittest.TestCase):
         self.assertIn("roughness", ir.dump())
         with self.assertRaises(shadewire.ShadewireError):
             shadewire.mdl.to_ir(text.replace("backscattering_glossy", "no_such"), models=["surface"], location=str(path))
+
+
+class Web(unittest.TestCase):
+    def test_the_module_brings_the_nodes(self):
+        node, npm, compiler = tool(self, "node"), tool(self, "npm"), tool(self, "glslangValidator")
+        if "CATSEYE" not in os.environ:
+            missing(self, "CATSEYE does not name the catseye command")
+        # Beside the packages of Python, where it stays for the next run.
+        packages = pathlib.Path(sys.prefix) / "npm"
+        binaries = packages / "node_modules/@needle-tools/materialx/bin"
+        if not binaries.exists():
+            output, good = run(npm, "install", "--prefix", packages, "--ignore-scripts", "--legacy-peer-deps", WEB_PACKAGE)
+            if not good:
+                missing(self, f"{WEB_PACKAGE} can't be installed: {output}")
+        with tempfile.TemporaryDirectory() as folder:
+            output, good = run(os.environ["CATSEYE"], "materialx", "export", folder)
+            self.assertTrue(good, output)
+            module = pathlib.Path(folder) / "libraries/catseye/web/catseye.mjs"
+            document = MATERIALS / "retro_sheeting.mtlx"
+            command = [node, "--no-warnings", HERE / "web.mjs", binaries, module, document]
+            shader, good = run(*command)
+            self.assertTrue(good, shader)
+            self.assertIn("mx_retro_reflective_bsdf(", shader)
+            source = pathlib.Path(folder) / "shader.frag"
+            source.write_text(shader)
+            output, good = run(compiler, source)
+            self.assertTrue(good, output)
+            self.assertFalse(run(*command, "without")[1], "the nodes come from the module")
 
 
 if __name__ == "__main__":
