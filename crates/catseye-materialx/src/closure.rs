@@ -35,7 +35,8 @@ pub enum Closure {
         color: [f32; 3],
         /// Standard deviation of the facets' slope; 0 is Lambert.
         roughness: f32,
-        /// Whether multiple scattering among the facets is compensated (EON instead of qualitative Oren-Nayar).
+        /// Whether multiple scattering among the facets is compensated (EON instead of qualitative
+        /// Oren-Nayar).
         energy_compensation: bool,
     },
     /// `dielectric_bsdf` with the GGX distribution.
@@ -110,7 +111,8 @@ pub enum Closure {
         /// Roughness, in `(0, 1]`.
         roughness: f32,
     },
-    /// A lobe about a normal or tangent of its own: the inputs `normal`, `tangent` and `tangent_u` of its node.
+    /// A lobe about a normal or tangent of its own: the inputs `normal`, `tangent` and `tangent_u` of its
+    /// node.
     Oriented {
         /// The lobe.
         closure: Box<Closure>,

@@ -43,7 +43,8 @@ pub(crate) fn is_built_in(element: &Element) -> bool {
 }
 
 impl<'a> Node<'a> {
-    /// Finds the node's definition and checks all its inputs, connections one step far; the first problem is an error.
+    /// Finds the node's definition and checks all its inputs, connections one step far; the first problem is
+    /// an error.
     pub(crate) fn bind(graph: &Graph<'a>, node: NodeRef<'a>) -> Result<Self, Error> {
         let mut problems = Vec::new();
         let bound = Self::bind_all(graph, node, &mut problems);

@@ -21,15 +21,17 @@ const MAX_FILES: usize = 4096;
 /// Folders inside folders.
 const MAX_DEPTH: usize = 6;
 
-/// The definitions of our own data library that are graphs: `retro_sheeting_surface`. Test `read` reads a document with it.
+/// The definitions of our own data library that are graphs: `retro_sheeting_surface`. Test `read` reads a
+/// document with it.
 static OWN: LazyLock<Vec<Element>> = LazyLock::new(|| {
     definitions().flat_map(|(name, text)| parse_bytes(text.as_bytes(), name, None)).collect()
 });
 
 /// The folders that may be read, and the node definitions in the MaterialX libraries among them.
 ///
-/// The nodes of our own data library are always known. A folder of the search path that has a folder `libraries` (as MaterialX and its Python package have), or is one,
-/// gives its definitions; nodes that are defined as nodegraphs, such as `standard_surface`, are then known.
+/// The nodes of our own data library are always known. A folder of the search path that has a folder
+/// `libraries` (as MaterialX and its Python package have), or is one, gives its definitions; nodes that are
+/// defined as nodegraphs, such as `standard_surface`, are then known.
 #[derive(Debug, Default)]
 pub struct Library {
     search_path: SearchPath,
@@ -37,7 +39,8 @@ pub struct Library {
 }
 
 impl Library {
-    /// Reads the libraries of a search path; without any there are only our own library and the nodes that are built in.
+    /// Reads the libraries of a search path; without any there are only our own library and the nodes that
+    /// are built in.
     ///
     /// # Errors
     /// A folder or a file of a library can't be read.
@@ -75,8 +78,8 @@ impl Library {
     }
 }
 
-/// The documents under a folder in the order of their names. Folders of one target's code (`genglsl`, ...) have no
-/// graphs.
+/// The documents under a folder in the order of their names. Folders of one target's code (`genglsl`, ...)
+/// have no graphs.
 fn collect(folder: &Path, depth: usize, files: &mut Vec<PathBuf>) -> Result<(), Error> {
     let read = |cause| Error::Read { file: folder.to_string_lossy().into(), cause };
     let mut entries = folder

@@ -30,8 +30,8 @@ fn combined<'p>(n: &Inputs<'p>) -> Expr<'p> {
     n.program.combine(&parts)
 }
 
-/// One number becomes all components; a fourth one that is missing becomes 1, as alpha is; else components are dropped
-/// or 0.
+/// One number becomes all components; a fourth one that is missing becomes 1, as alpha is; else components
+/// are dropped or 0.
 fn converted<'p>(n: &Inputs<'p>) -> Expr<'p> {
     let [x] = n.all();
     match (x.width(), n.ty) {

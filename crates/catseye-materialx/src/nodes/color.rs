@@ -23,7 +23,8 @@ fn blend<'p>(n: &Inputs<'p>, formula: impl Fn(Expr<'p>, Expr<'p>) -> Expr<'p>) -
     bg.mix(formula(fg, bg), mix)
 }
 
-/// A quotient for each component, mixed with the background; 0 where the divisor, made of the foreground, is 0.
+/// A quotient for each component, mixed with the background; 0 where the divisor, made of the foreground, is
+/// 0.
 fn blend_quotient<'p>(
     n: &Inputs<'p>,
     divisor: impl Fn(Expr<'p>) -> Expr<'p>,

@@ -156,7 +156,8 @@ mod tests {
     use super::*;
     use crate::program::Assembler;
 
-    /// Every row computes with what it declares; a formula that asks for more is unreachable code in a document.
+    /// Every row computes with what it declares; a formula that asks for more is unreachable code in a
+    /// document.
     #[test]
     fn rows_compute_from_their_defaults() {
         for def in GROUPS.into_iter().flatten() {

@@ -1,8 +1,8 @@
 //! Patterns: what inputs are where they vary over a surface.
 //!
-//! A [`Program`] is a list of instructions, each writing one register of four numbers from earlier ones; equal
-//! instructions are stored once, and those without the geometry among their sources are computed when the document is
-//! read.
+//! A [`Program`] is a list of instructions, each writing one register of four numbers from earlier ones;
+//! equal instructions are stored once, and those without the geometry among their sources are computed when
+//! the document is read.
 
 mod expr;
 mod noise;

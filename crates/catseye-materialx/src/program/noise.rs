@@ -41,7 +41,8 @@ fn hash(keys: &[i32]) -> u32 {
     mix_finally(state)
 }
 
-/// Numbers in `[0, 1)` for the unit cell of a position: one, or several that differ in a last word of the hash.
+/// Numbers in `[0, 1)` for the unit cell of a position: one, or several that differ in a last word of the
+/// hash.
 pub(crate) fn cell<const N: usize>(position: [f32; N], width: u8) -> Lanes {
     let mut keys = [0; 4];
     keys[..N].copy_from_slice(&position.map(|x| x.floor() as i32));
@@ -73,7 +74,8 @@ const SCALE_2D: f32 = 0.6616;
 /// As [`SCALE_2D`], in space.
 const SCALE_3D: f32 = 0.982;
 
-/// Perlin noise in the plane, of as many components as asked for: each takes other bits of the lattice's hash.
+/// Perlin noise in the plane, of as many components as asked for: each takes other bits of the lattice's
+/// hash.
 pub(crate) fn gradient_2d([x, y]: [f32; 2], width: u8) -> Lanes {
     let ((xi, xf), (yi, yf)) = (split(x), split(y));
     let (u, v) = (fade(xf), fade(yf));

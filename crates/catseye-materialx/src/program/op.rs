@@ -91,7 +91,8 @@ pub(crate) enum Op {
         wrap: [Wrap; 2],
         filter: Filter,
     },
-    /// The refractive index and the extinction of a metal of this reflectance and edge colour (Gulbrandsen 2014).
+    /// The refractive index and the extinction of a metal of this reflectance and edge colour (Gulbrandsen
+    /// 2014).
     ArtisticIndex,
     ArtisticExtinction,
 }
@@ -259,8 +260,8 @@ fn rgb_from_hsv(hsv: &Lanes) -> Lanes {
     [channel(5.0), channel(3.0), channel(1.0), alpha]
 }
 
-/// Gulbrandsen, "Artist Friendly Metallic Fresnel", JCGT 3(4), 2014: n and k for a reflectance at normal incidence and
-/// an edge tint, both in `[0, 1]`.
+/// Gulbrandsen, "Artist Friendly Metallic Fresnel", JCGT 3(4), 2014: n and k for a reflectance at normal
+/// incidence and an edge tint, both in `[0, 1]`.
 fn artistic_index(reflectance: f32, edge: f32) -> (f32, f32) {
     let r = reflectance.clamp(0.0, 0.99);
     let root = r.sqrt();

@@ -13,8 +13,8 @@ pub(crate) const MAX_BYTES: usize = 16 << 20;
 
 /// The folders that files may be read from.
 ///
-/// A document may name files under its own folder; what it names outside, with `..`, an absolute path or a symbolic
-/// link, must lie under one of these folders.
+/// A document may name files under its own folder; what it names outside, with `..`, an absolute path or a
+/// symbolic link, must lie under one of these folders.
 #[derive(Clone, Debug, Default)]
 pub struct SearchPath {
     folders: Vec<PathBuf>,
@@ -57,7 +57,8 @@ impl SearchPath {
         let bases = source.folder().into_iter().chain(self.folders.iter().map(PathBuf::as_path));
         let mut refusal = Refusal::Missing;
         for base in bases {
-            // Symbolic links and `..` are resolved before the comparison: nothing is compared by its spelling.
+            // Symbolic links and `..` are resolved before the comparison: nothing is compared by its
+            // spelling.
             let Ok(path) = base.join(name).canonicalize() else { continue };
             if self.allows(source, &path) {
                 return Ok(path);

@@ -16,12 +16,14 @@ use crate::{
 const MAX_XML_NODES: u32 = 500_000;
 /// Elements inside elements; MaterialX itself needs four.
 const MAX_NESTING: usize = 32;
-/// Quotes in one tag, two for each attribute: roxmltree compares every attribute of an element with every other.
+/// Quotes in one tag, two for each attribute: roxmltree compares every attribute of an element with every
+/// other.
 const MAX_QUOTES: usize = 256;
 /// Namespace declarations: roxmltree copies those of the parent into every child that declares another.
 const MAX_NAMESPACES: usize = 64;
 
-/// Bytes of one attribute, except `doc`: names and values are hashed and parsed wherever they are referred to.
+/// Bytes of one attribute, except `doc`: names and values are hashed and parsed wherever they are referred
+/// to.
 const MAX_ATTRIBUTE: usize = 4096;
 
 const XINCLUDE: &str = "http://www.w3.org/2001/XInclude";
@@ -46,8 +48,8 @@ pub(crate) fn parse(source: &Arc<Source>) -> Result<Element, Error> {
     }
 }
 
-/// Tokens in file names, which MaterialX writes as they are though XML has no `<` in attributes, and what stands for them
-/// while the XML is read: as many bytes, so that places stay.
+/// Tokens in file names, which MaterialX writes as they are though XML has no `<` in attributes, and what
+/// stands for them while the XML is read: as many bytes, so that places stay.
 const TOKENS: [(&str, &str); 2] = [("<UDIM>", "%UDIM%"), ("<UVTILE>", "%UVTILE%")];
 
 /// The text that is parsed: the document's, with what MaterialX's parser doesn't mind made good.
