@@ -238,7 +238,7 @@ impl<'a> Builder<'a> {
     }
 
     fn film(&mut self, node: &Node<'a>) -> Result<(), Error> {
-        if self.float(node, "thinfilm_thickness")?.constant() != Some([0.0]) {
+        if self.bounded(node, "thinfilm_thickness")?.constant() != Some([0.0; 4]) {
             self.warn(node, "thinfilm_thickness", "thin films are not rendered: the film is ignored");
         }
         Ok(())
