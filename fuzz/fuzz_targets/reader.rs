@@ -13,6 +13,10 @@ fuzz_target!(|bytes: &[u8]| {
         Err(error) => return assert_one_line(&error.to_string()),
     };
     let _ = (document.looks(), document.warnings());
+    match document.outputs() {
+        Err(error) => assert_one_line(&error.to_string()),
+        Ok(outputs) => outputs.iter().for_each(|output| drop(output.at(&ShadingPoint::default()))),
+    }
     match document.materials() {
         Err(error) => assert_one_line(&error.to_string()),
         Ok(materials) => {

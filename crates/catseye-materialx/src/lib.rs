@@ -42,7 +42,7 @@
 //!   `generalized_schlick_bsdf` (these three with `retroreflective`), `sheen_bsdf`, `translucent_bsdf`, `mix`, `layer`, `add`,
 //!   `multiply`; with a warning, `subsurface_bsdf` as diffuse reflection, and volumes and thin films not at all.
 //! - EDFs: `uniform_edf`, `generalized_schlick_edf`, `mix`, `add`, `multiply`.
-//! - Inputs that vary: some ninety pattern nodes, from `image` to `worleynoise3d`. What of them doesn't depend on the geometry is
+//! - Inputs that vary: 110 pattern nodes, from `image` to `worleynoise3d`. What of them doesn't depend on the geometry is
 //!   computed once; the rest is a [`Patterns`] program, which [`Material::patterns`] runs at each [`ShadingPoint`].
 //! - `retro_sheeting_surface` of our own data library.
 //! - Nodes that the document or a [`Library`] defines as nodegraphs: `standard_surface`, `open_pbr_surface`, `gltf_pbr` where
@@ -52,7 +52,7 @@
 //! Only what a material refers to is checked, and the first problem ends the reading; [`check`](check()) looks at everything.
 //!
 //! Hostile documents are refused in bounded time and memory: no document type declarations, at most 16 MiB, 32 levels
-//! of elements, 64 BSDF nodes or 200 pattern nodes in a chain, 65,536 closures, 256 included files, pictures of at most 16,384
+//! of elements, 64 BSDF nodes or 200 pattern nodes in a chain, 65,536 closures, 1,048,576 pattern instructions, 256 included files, pictures of at most 16,384
 //! pixels a side, 2^26 pixels, and 640 MiB of memory together with what decoding takes, and no file outside the document's folder and the search path.
 
 mod check;

@@ -16,7 +16,7 @@ use crate::{
         port::{Port, Types},
     },
     output::Output,
-    program::{Assembler, Expr, Geometry, texture::Textures},
+    program::{Assembler, Expr, Geometry, Program, texture::Textures},
     text::{element::Element, files::Refusal},
     value::{Type, Value},
 };
@@ -25,6 +25,9 @@ use crate::{
 const MAX_DEPTH: usize = 200;
 /// Instructions of all materials of a document; the largest of MaterialX's examples has about 700.
 const MAX_INSTRUCTIONS: usize = 1 << 18;
+
+/// Instructions of the programs of all materials and outputs: what several use counts for each of them.
+const MAX_COMPILED: usize = 1 << 20;
 
 /// A node's output at one of the places that use it.
 type Key<'a> = (ScopeId, *const Element, Option<&'a str>);
@@ -39,6 +42,8 @@ pub(crate) struct PatternCompiler<'a> {
     /// Nodes that are being compiled, the outermost first.
     open: Vec<(Key<'a>, &'a Element)>,
     textures: Textures,
+    /// Instructions of the programs so far.
+    compiled: usize,
     /// What is approximated, a line each.
     pub(crate) warnings: Vec<String>,
 }
@@ -52,6 +57,7 @@ impl<'a> PatternCompiler<'a> {
             done: HashMap::new(),
             open: Vec::new(),
             textures: Textures::default(),
+            compiled: 0,
             warnings: Vec::new(),
         }
     }
@@ -84,7 +90,18 @@ impl<'a> PatternCompiler<'a> {
             return Err(Error::WrongType { at: element.place(), found, expected });
         };
         let value = self.feed(element, feed, ty)?;
-        Ok(Output::new(name.to_owned(), self.program.finish(&[value])))
+        Ok(Output::new(name.to_owned(), self.finish(element, &[value])?))
+    }
+
+    /// The program of a material or an output.
+    pub(crate) fn finish(&mut self, element: &Element, results: &[Expr<'a>]) -> Result<Program, Error> {
+        let program = self.program.finish(results);
+        self.compiled += program.len();
+        if self.compiled > MAX_COMPILED {
+            let (what, limit) = ("pattern instructions of all materials together", MAX_COMPILED);
+            return Err(Error::Limit { at: element.place(), what, limit });
+        }
+        Ok(program)
     }
 
     /// What feeds an input; `None` where nothing does.

@@ -56,7 +56,7 @@ impl<'a> Builder<'a> {
         if node.connected("displacementshader").is_some() {
             self.warn(&node, "displacementshader", "surfaces are not displaced: the displacement is ignored");
         }
-        Ok(self.finish(name, surface))
+        self.finish(material.element, name, surface)
     }
 
     /// The surface node behind a shader node, which may be defined as a graph.
@@ -103,12 +103,12 @@ impl<'a> Builder<'a> {
         Ok(SurfaceFill { bsdf, opacity, emission })
     }
 
-    fn finish(&mut self, name: String, surface: SurfaceFill) -> Material {
-        let program = self.patterns.program.finish(&self.outputs);
+    fn finish(&mut self, element: &Element, name: String, surface: SurfaceFill) -> Result<Material, Error> {
+        let program = self.patterns.finish(element, &self.outputs)?;
         let warnings = core::mem::take(&mut self.patterns.warnings);
         let shown = surface.at(&program.run(&ShadingPoint::default(), &mut Vec::new()));
         let patterns = (program.outputs() > 0).then(|| Patterns::new(surface, program));
-        Material { name, surface: shown, patterns, warnings }
+        Ok(Material { name, surface: shown, patterns, warnings })
     }
 
     pub(super) fn warn(&mut self, node: &Node<'a>, input: &str, what: &str) {

@@ -9,7 +9,11 @@ mod noise;
 mod op;
 pub(crate) mod texture;
 
-use std::{cell::RefCell, collections::HashMap, sync::Arc};
+use std::{
+    cell::RefCell,
+    collections::{BTreeSet, HashMap},
+    sync::Arc,
+};
 
 pub(crate) use expr::Expr;
 pub(crate) use op::{Geometry, Op};
@@ -100,6 +104,10 @@ impl Program {
         Outputs { registers, outputs: &self.outputs }
     }
 
+    pub(crate) fn len(&self) -> usize {
+        self.instructions.len()
+    }
+
     /// How many results there are.
     pub(crate) fn outputs(&self) -> usize {
         self.outputs.len()
@@ -156,23 +164,22 @@ impl Assembler {
     /// The program with these results.
     pub(crate) fn finish(&self, results: &[Expr<'_>]) -> Program {
         let all = &self.state.borrow().program;
-        let mut live = vec![false; all.instructions.len()];
-        results.iter().for_each(|result| live[result.register() as usize] = true);
-        for (register, instruction) in all.instructions.iter().enumerate().rev() {
-            if live[register] {
-                instruction.sources.iter().for_each(|&source| live[source as usize] = true);
+        // The time this takes depends on the program alone, not on those of other materials.
+        let mut live = BTreeSet::new();
+        let mut next: Vec<u32> = results.iter().map(|result| result.register()).collect();
+        while let Some(register) = next.pop() {
+            if live.insert(register) {
+                next.extend(&all.instructions[register as usize].sources);
             }
         }
-        let mut places = HashMap::new();
-        let mut program = Program { textures: all.textures.clone(), ..Program::default() };
-        for (register, instruction) in all.instructions.iter().enumerate() {
-            if live[register] {
-                let mut instruction = instruction.clone();
-                instruction.sources.iter_mut().for_each(|source| *source = places[source]);
-                places.insert(register as u32, program.instructions.len() as u32);
-                program.instructions.push(instruction);
-            }
-        }
+        let places: HashMap<u32, u32> = live.iter().copied().zip(0..).collect();
+        let relocated = |register: &u32| {
+            let mut instruction = all.instructions[*register as usize].clone();
+            instruction.sources.iter_mut().for_each(|source| *source = places[source]);
+            instruction
+        };
+        let instructions = live.iter().map(relocated).collect();
+        let mut program = Program { instructions, textures: all.textures.clone(), outputs: Vec::new() };
         program.outputs = results.iter().map(|result| places[&result.register()]).collect();
         program
     }

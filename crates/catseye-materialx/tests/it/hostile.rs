@@ -105,6 +105,32 @@ fn the_worst_that_the_limits_let_through_is_quick() {
     assert_eq!(read(text.as_bytes()).unwrap().len(), 60_001);
 }
 
+/// Each material has a program of its own: 10,000 instructions a time, 2,000 times, were a gigabyte.
+#[test]
+fn programs_of_many_materials_are_bounded() {
+    let input = |i: usize| match i {
+        0 => String::new(),
+        i => format!("<input name='position' type='vector3' nodename='n{}'/>", i - 1),
+    };
+    let octaves = "<input name='octaves' type='integer' value='16'/>";
+    let nodes =
+        repeated(150, |i| format!("<fractal3d name='n{i}' type='vector3'>{}{octaves}</fractal3d>", input(i)));
+    let bsdf = "<oren_nayar_diffuse_bsdf name='bsdf' type='BSDF'><input name='normal' type='vector3' nodename='n149'/>\
+                </oren_nayar_diffuse_bsdf>";
+    let materials = repeated(2_000, |i| {
+        format!(
+            "<surfacematerial name='m{i}' type='material'><input name='surfaceshader' type='surfaceshader' nodename='s'/></surfacematerial>"
+        )
+    });
+    let limit =
+        "more than 1048576 pattern instructions of all materials together; simplify or split the document";
+    assert_refused(&document(&format!("{nodes}{bsdf}{materials}")), limit);
+    let outputs = repeated(2_000, |i| format!("<output name='o{i}' type='vector3' nodename='n149'/>"));
+    let document = Document::parse(&document(&format!("{nodes}{bsdf}{outputs}")), "hostile.mtlx").unwrap();
+    let message = document.outputs().unwrap_err().to_string();
+    assert!(message.ends_with(limit), "{message}");
+}
+
 #[test]
 fn long_attributes_are_refused_except_documentation() {
     let long = "x".repeat(5000);
