@@ -56,7 +56,8 @@ pub(crate) fn definitions() -> impl Iterator<Item = (&'static str, &'static str)
     })
 }
 
-/// The definitions and the GLSL in one JavaScript module. Rust's notation of a string of ASCII is JavaScript's.
+/// The definitions and the GLSL in one JavaScript module. Rust's notation of a string of ASCII is
+/// JavaScript's.
 fn web_module() -> String {
     let files: String = FILES
         .iter()

@@ -252,7 +252,8 @@ impl<'a> Builder<'a> {
         let multiscatter_tint: Slot<3> = self.slot_within(node, "multiscatter_tint", Accepts::Unit)?;
         let params = |[u]: [f32; 1], [v]: [f32; 1], tint, multiscatter_tint| {
             Params::isotropic(u)
-                // MaterialX has no default that refers to another input: a negative value means "as roughness_u".
+                // MaterialX has no default that refers to another input: a negative value means "as
+                // roughness_u".
                 .with_roughness_v((v >= 0.0).then_some(v))
                 .with_tint(tint)
                 .with_multiscatter_tint(multiscatter_tint)

@@ -29,7 +29,8 @@ pub(super) fn decode(source: Source, room: &mut Room) -> Result<Picture, Refusal
         return Err(Refusal::Room);
     }
     let slots = slots(&header)?;
-    // A block as it is stored, as it is, and once more for the compressions that reorder it; and the table of blocks.
+    // A block as it is stored, as it is, and once more for the compressions that reorder it; and the table of
+    // blocks.
     room.scratch(header.max_block_byte_size().saturating_mul(3).saturating_add(16 * MAX_BLOCKS))?;
     let channels = slots.iter().flatten().max().map_or(1, |most| most + 1);
     let is_half = |(slot, channel): (&Option<usize>, &ChannelDescription)| {

@@ -90,8 +90,8 @@ fn scanline(source: &mut impl Read, line: &mut [[u8; 4]]) -> Result<(), Refusal>
     Ok(())
 }
 
-/// Pixels of four bytes; 1, 1, 1, n repeats the last one n times, and such runs in sequence are the digits of one
-/// number, the lowest first.
+/// Pixels of four bytes; 1, 1, 1, n repeats the last one n times, and such runs in sequence are the digits of
+/// one number, the lowest first.
 fn old_scanline(source: &mut impl Read, first: [u8; 4], line: &mut [[u8; 4]]) -> Result<(), Refusal> {
     let (mut column, mut shift, mut next) = (0, 0, Some(first));
     while column < line.len() {

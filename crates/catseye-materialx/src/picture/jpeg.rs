@@ -79,8 +79,8 @@ fn keeps_coefficients(source: &mut Source) -> Result<bool, Refusal> {
     }
 }
 
-/// Refuses a file without the marker of a picture's end, which a decoder of baseline pictures doesn't miss in the last
-/// rows. Cameras append more, so it is sought in the last 64 KiB.
+/// Refuses a file without the marker of a picture's end, which a decoder of baseline pictures doesn't miss in
+/// the last rows. Cameras append more, so it is sought in the last 64 KiB.
 fn ends_with_marker(source: &mut Source) -> Result<(), Refusal> {
     const TAIL: u64 = 64 << 10;
     let length = source.seek(SeekFrom::End(0))?;

@@ -22,8 +22,8 @@ const MAX_SIDE: usize = 16_384;
 const MAX_PIXELS: usize = 1 << 26;
 /// Bytes of a picture's file.
 const MAX_FILE_BYTES: u64 = 256 << 20;
-/// Bytes that all pictures of a document and what decoding them takes may have at a time: with the largest document
-/// (some 0.3 GB) a process stays below 1 GB.
+/// Bytes that all pictures of a document and what decoding them takes may have at a time: with the largest
+/// document (some 0.3 GB) a process stays below 1 GB.
 pub(crate) const MAX_BYTES: usize = 640 << 20;
 
 /// How a picture's numbers are stored.

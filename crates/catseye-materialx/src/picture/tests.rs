@@ -6,7 +6,8 @@ use exr::prelude::f16;
 
 use super::{Depth, Layout, Picture, Refusal, Room};
 
-/// File, channels, depth, and how far a number may be off, in 1/255. The pixels are those of `make.py` beside the files.
+/// File, channels, depth, and how far a number may be off, in 1/255. The pixels are those of `make.py` beside
+/// the files.
 const FILES: &[(&str, usize, Depth, f32)] = &[
     ("rgb8.png", 3, Depth::Byte, 0.0),
     ("palette.png", 3, Depth::Byte, 0.0),

@@ -1,7 +1,8 @@
 //! Documents of version 1.38 as MaterialX 1.39 reads them.
 //!
-//! The rules are those of MaterialX's `Document::upgradeVersion`; test `upgrade` in `tests/materialx` compares what comes out. Left
-//! alone is `swizzle`, which 1.39 no longer has and which is read here, and a value beside a connection, which does nothing.
+//! The rules are those of MaterialX's `Document::upgradeVersion`; test `upgrade` in `tests/materialx`
+//! compares what comes out. Left alone is `swizzle`, which 1.39 no longer has and which is read here, and a
+//! value beside a connection, which does nothing.
 
 use std::collections::{HashMap, HashSet};
 
@@ -12,7 +13,8 @@ const BINDINGS: &[&str] = &["nodename", "nodegraph", "output", "interfacename", 
 /// BSDF nodes that have a film of their own in 1.39.
 const WITH_FILM: &[&str] = &["dielectric_bsdf", "conductor_bsdf", "generalized_schlick_bsdf"];
 
-/// Layers with films in a scope: each is followed down to the last node. What is beyond is refused later, as unknown.
+/// Layers with films in a scope: each is followed down to the last node. What is beyond is refused later, as
+/// unknown.
 const MAX_FILMS: usize = 256;
 
 /// Upgrades the document's scope and those of its nodegraphs.
@@ -26,7 +28,8 @@ pub(crate) fn upgrade(root: &mut Element) {
     scope(root, &graphs);
 }
 
-/// The types of the outputs of a scope's nodegraphs, by the names of both; without the output's for an only one.
+/// The types of the outputs of a scope's nodegraphs, by the names of both; without the output's for an only
+/// one.
 type OutputTypes = HashMap<(String, Option<String>), String>;
 
 fn output_types(root: &Element) -> OutputTypes {
@@ -270,7 +273,8 @@ fn which(node: &mut Element) {
     }
 }
 
-/// `space` went: object space becomes arithmetic, and the bitangent of tangent space is given where it would be another.
+/// `space` went: object space becomes arithmetic, and the bitangent of tangent space is given where it would
+/// be another.
 fn normal_map(node: &mut Element, names: &mut Names, added: &mut Vec<Element>) {
     let space = node.child("input", "space").and_then(|space| space.attribute("value"));
     if space == Some("object") {
