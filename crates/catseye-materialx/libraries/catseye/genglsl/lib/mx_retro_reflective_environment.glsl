@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: MIT OR Apache-2.0
 //
 // The lobe's response to the environment, for unit tint: the integral of radiance, BSDF and cosine. This form needs only
-// `mx_environment_radiance`, which every environment mode and every host defines, for a mirror lobe of a given width. Where
-// the mode's own file has defined a better one (mx_retro_reflective_environment_fis.glsl), that one stands.
+// `mx_environment_radiance`, which every environment mode and every host defines, for a mirror lobe of a given width, and
+// what declares its arguments. Where the mode's own file has defined a better one, that one stands.
 #ifndef RETRO_REFLECTIVE_ENVIRONMENT
 #define RETRO_REFLECTIVE_ENVIRONMENT
 
