@@ -183,7 +183,7 @@ fn refuse_unwritable(path: &Path) -> io::Result<()> {
         }
         if !meta.is_file() {
             // Renaming a file to its name would take a device out of the system.
-            return Err(io::Error::other("it is not a regular file"));
+            return Err(io::Error::other("it is not a regular file; `-` is standard output"));
         }
         if meta.permissions().readonly() {
             return Err(io::Error::other("it is read-only"));

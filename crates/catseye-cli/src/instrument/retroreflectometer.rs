@@ -5,7 +5,7 @@ use anyhow::anyhow;
 use catseye::Model;
 use catseye_materialx::Material;
 use catseye_photometry::{Geometry, Quantity};
-use catseye_render::{Estimate, Retroreflectometer};
+use catseye_render::{Estimate, Retroreflectometer as Instrument};
 
 use super::{Channel, area_needed};
 
@@ -14,7 +14,7 @@ pub(crate) const SAMPLES: u32 = 1 << 16;
 
 /// A material on the instrument of ASTM E810: 15 m away, apertures of 0.1 degrees, a specimen of 20 cm.
 #[derive(Debug)]
-pub(crate) struct Traced<'a> {
+pub(crate) struct Retroreflectometer<'a> {
     pub(crate) material: &'a Material,
     pub(crate) model: Model,
     pub(crate) channel: Channel,
@@ -24,7 +24,7 @@ pub(crate) struct Traced<'a> {
     pub(crate) samples: u32,
 }
 
-impl Traced<'_> {
+impl Retroreflectometer<'_> {
     /// The quantity in its SI unit, with its standard error.
     pub(crate) fn measure(&self, quantity: Quantity, geometry: &Geometry) -> anyhow::Result<Estimate> {
         // The instrument measures R_A; the others are it times cosines or an area.
@@ -41,7 +41,7 @@ impl Traced<'_> {
         };
         let directions = [geometry.wo, geometry.wi];
         let reading =
-            Retroreflectometer::default().measure(self.material, self.model, directions, self.samples, 0)?;
+            Instrument::default().measure(self.material, self.model, directions, self.samples, 0)?;
         let Estimate { value, standard_error } = reading.r_a(self.channel.weights());
         Ok(Estimate { value: value * factor, standard_error: standard_error * factor })
     }

@@ -12,7 +12,7 @@ use serde_json::{Map, Value, json};
 
 use crate::failure::Usage;
 use crate::instrument::goniometer::Photometer;
-use crate::instrument::retroreflectometer::{SAMPLES, Traced};
+use crate::instrument::retroreflectometer::{Retroreflectometer, SAMPLES};
 use crate::instrument::{Channel, check_area, table};
 use crate::options::MaterialArgs;
 use crate::output::Output;
@@ -93,9 +93,9 @@ impl Args {
     fn trace(&self, material: &Material) -> anyhow::Result<String> {
         let (model, channel, area, samples) =
             (self.subject.model(), self.channel, self.area_m2, self.samples);
-        let traced = Traced { material, model, channel, area, samples };
+        let instrument = Retroreflectometer { material, model, channel, area, samples };
         self.answer(["model", "standard_error"], |row| {
-            let Estimate { value, standard_error } = traced.measure(row.quantity, &row.geometry())?;
+            let Estimate { value, standard_error } = instrument.measure(row.quantity, &row.geometry())?;
             Ok([value, standard_error])
         })
     }
