@@ -66,10 +66,8 @@ fn one_row(options: &[(&str, &[&str], Option<&str>)]) -> anyhow::Result<Input> {
             numbers.push("");
         }
         if numbers.len() != columns.len() {
-            bail!(Usage(format!(
-                "--{name} {value}: {} numbers with commas between them are needed",
-                columns.len()
-            )));
+            let needed = if *name == "roughness" { "1 or 2".to_owned() } else { columns.len().to_string() };
+            bail!(Usage(format!("--{name} {value}: {needed} numbers with commas between them are needed")));
         }
         header.extend_from_slice(columns);
         row.extend(numbers);

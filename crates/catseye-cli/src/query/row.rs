@@ -112,7 +112,11 @@ impl Columns {
         let missing: Vec<&str> = needed.filter(|name| position(name).is_none()).collect();
         if !missing.is_empty() {
             let noun = if missing.len() == 1 { "column" } else { "columns" };
-            bail!("missing {noun} {}", missing.join(", "));
+            let names: Vec<String> =
+                header.iter().map(|name| String::from_utf8_lossy(name.trim_ascii()).into_owned()).collect();
+            let meant = names.iter().find(|name| missing.iter().any(|other| alike(other, name)));
+            let hint = meant.map_or(String::new(), |name| format!("; is {name:?} one of them?"));
+            bail!("missing {noun} {}{hint}", missing.join(", "));
         }
         let all = |names: [&str; 3]| names.map(|name| position(name).unwrap_or_default());
         Ok(Self { params: PARAMS.map(position), wo: all(WO), third: third.map(|names| (names, all(names))) })
@@ -120,15 +124,8 @@ impl Columns {
 
     /// The optional input that is not there and has all but the same name as another column.
     pub(crate) fn like(&self, column: &str) -> Option<&'static str> {
-        /// Letters that may be wrong, missing, too many or in the wrong order.
-        const TYPOS: usize = 2;
-        let column = column.to_ascii_lowercase();
-        if [WI, U].concat().contains(&column.as_str()) {
-            return None;
-        }
         let absent = PARAMS.into_iter().zip(self.params).filter(|(_, field)| field.is_none());
-        let distances = absent.map(|(name, _)| (strsim::osa_distance(name, &column), name));
-        distances.min().filter(|(distance, _)| *distance <= TYPOS).map(|(_, name)| name)
+        absent.map(|(name, _)| name).filter(|name| alike(name, column)).min_by_key(|name| typos(name, column))
     }
 
     /// Whether the compensation has a tint.
@@ -141,6 +138,17 @@ impl Columns {
         let mut rest = self.wo.iter().chain(self.third.iter().flat_map(|(_, fields)| fields));
         self.params.contains(&Some(field)) || rest.any(|&other| other == field)
     }
+}
+
+/// Whether a column that is no input of any verb may be meant as one.
+fn alike(name: &str, column: &str) -> bool {
+    let mut known = PARAMS.into_iter().chain(WO).chain(WI).chain(U);
+    !known.any(|other| other.eq_ignore_ascii_case(column)) && typos(name, column) <= 2
+}
+
+/// How many letters are wrong, missing, too many or in the wrong order.
+fn typos(name: &str, column: &str) -> usize {
+    strsim::osa_distance(name, &column.to_ascii_lowercase())
 }
 
 /// A record and its meaning.

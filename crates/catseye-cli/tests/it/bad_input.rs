@@ -57,7 +57,11 @@ fn a_bad_header_is_named() {
     let cases = [
         ("", "<stdin>:1: no header line"),
         ("roughness_u,wo_x,wo_y,wi_x,wi_y,wi_z\n", "<stdin>:1: missing column wo_z"),
-        ("roughness,wo_x,wo_y,wo_z\n", "<stdin>:1: missing columns roughness_u, wi_x, wi_y, wi_z"),
+        (
+            "roughness,wo_x,wo_y,wo_z\n",
+            "<stdin>:1: missing columns roughness_u, wi_x, wi_y, wi_z; is \"roughness\" one of them?",
+        ),
+        ("id,roughness_u,wo_x,wo_y,wo_z,wi_x,wi_y,u1\n", "<stdin>:1: missing column wi_z"),
         ("a,roughness_u,a,wo_x,wo_y,wo_z,wi_x,wi_y,wi_z\n", "<stdin>:1: column \"a\" appears twice"),
     ];
     for (table, message) in cases {

@@ -28,7 +28,7 @@ fn a_compensation_that_a_model_does_not_have() {
 fn a_column_that_is_all_but_an_input() {
     let table = |name: &str| ROW.replacen("wo_x", &format!("{name},wo_x"), 1).replacen("0,0,1", "1,0,0,1", 1);
     for (name, meant) in
-        [("rougness_v", "roughness_v"), ("Tint_R_", "tint_r"), ("multiscatter_tint", "multiscatter_tint_b")]
+        [("rougness_v", "roughness_v"), ("Tint_R_", "tint_r"), ("multiscatter_tint", "multiscatter_tint_r")]
     {
         let (text, warning) = warned("eval", &table(name));
         let expected =
