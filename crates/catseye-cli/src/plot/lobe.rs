@@ -10,7 +10,7 @@ use super::axes::{Axes as Frame, roughness_label, ticks};
 use super::canvas::{Canvas, INK, Lettering, MUTED};
 use super::curves::{Curve, Panel, style, without_width};
 use super::figure::Figure;
-use super::polar;
+use super::polar::{self, Polar};
 
 /// Steps of a curve between the horizons.
 const STEPS: i32 = 1440;
@@ -195,7 +195,7 @@ impl Figure for LobeFigure {
         for (i, panel) in self.panels.iter().enumerate() {
             let left = indent + width * i as f64;
             match self.request.axes() {
-                Axes::Polar => polar::draw(canvas, panel, [left, TOP], width, self.greatest)?,
+                Axes::Polar => self.draw_polar(canvas, panel, left)?,
                 Axes::Cartesian => self.draw_cartesian(canvas, panel, left)?,
                 Axes::Log => self.draw_log(canvas, panel, left)?,
             }
@@ -209,6 +209,25 @@ impl LobeFigure {
         let width = self.panel_width();
         let size = (width - 72.0, polar::height(width) - 96.0);
         Frame { origin: (left + 56.0, TOP + 40.0), size, x, y }
+    }
+
+    fn draw_polar<DB: DrawingBackend>(
+        &self,
+        canvas: &Canvas<'_, DB>,
+        panel: &Panel,
+        left: f64,
+    ) -> anyhow::Result<()>
+    where
+        DB::ErrorType: 'static,
+    {
+        let frame = Polar::new([left, TOP], self.panel_width(), self.greatest);
+        frame.draw(canvas, panel.theta_deg, &panel.title)?;
+        for curve in &panel.curves {
+            let (color, width) = curve.style();
+            let points: Vec<_> = curve.values.iter().map(|&value| frame.place(value)).collect();
+            canvas.line(&points, color, width)?;
+        }
+        frame.draw_light(canvas, panel.theta_deg)
     }
 
     fn draw_cartesian<DB: DrawingBackend>(

@@ -162,21 +162,23 @@ impl Args {
         let started = Instant::now();
         let format = output::format(&self.output, self.format)?;
         let output = Output::new(&self.output)?;
-        let lamps: Vec<_> = if self.lamp_deg.is_empty() {
-            vec![None]
-        } else {
-            self.lamp_deg.iter().copied().map(Some).collect()
-        };
-        if lamps.len() > MAX_LAMPS || format == Format::Exr && (lamps.len() > 1 || self.labels) {
-            bail!(Usage(format!(
-                "--lamp-deg takes 1 to {MAX_LAMPS} angles, an EXR one picture without --labels"
-            )));
-        }
+        let lamps = self.lamps(format)?;
         let shots = lamps.iter().map(|lamp| self.shot(*lamp, format)).collect::<anyhow::Result<Vec<_>>>()?;
         output.write(&self.encode(&shots, format)?)?;
         let oversampling = self.oversampling(format);
         let spp = self.settings(oversampling)?.spp * (oversampling * oversampling) as u32;
         self.report(&output, &shots, spp, started.elapsed().as_secs_f64())
+    }
+
+    /// The lamp's angle in each picture; `None` is the scene's own.
+    fn lamps(&self, format: Format) -> anyhow::Result<Vec<Option<f32>>> {
+        let angles = &self.lamp_deg;
+        if angles.len() > MAX_LAMPS || format == Format::Exr && (angles.len() > 1 || self.labels) {
+            bail!(Usage(format!(
+                "--lamp-deg takes 1 to {MAX_LAMPS} angles, an EXR one picture without --labels"
+            )));
+        }
+        Ok(if angles.is_empty() { vec![None] } else { angles.iter().copied().map(Some).collect() })
     }
 
     fn shot(&self, lamp_deg: Option<f32>, format: Format) -> anyhow::Result<Shot> {
