@@ -8,8 +8,8 @@ use quick_xml::events::{BytesDecl, BytesText, Event};
 
 use crate::colour::Colour;
 use crate::digits::significant;
-use crate::entrance::{DEEPEST_FALL, EntranceFactor, LEAST_COSINE};
-use crate::sheeting::Sheeting;
+use crate::entrance::{EntranceLaw, LEAST_COSINE};
+use crate::sheeting::{RetroLobe, Sheeting};
 
 /// What a document says beside the numbers.
 #[derive(Clone, Debug)]
@@ -24,25 +24,34 @@ pub struct MaterialText<'a> {
     pub colour: Colour,
 }
 
+/// How much of the tangent is added to the viewer's projection, which has no direction along the normal.
+const TANGENT_SHARE: f64 = 1e-4;
+/// The cosine that the laws see, as a node.
+const COSINE: &str = "entrance_cosine";
+/// The viewer's projection on the surface, as a node.
+const PROJECTION: &str = "view_projection";
+
 /// The sheeting as a MaterialX 1.39 document: lobes whose tints depend on the entrance angle, added to a diffuse base, under
 /// a coat.
 ///
 /// The nodes are those of MaterialX and `retro_reflective_bsdf`, in the back-vector model `generalized_schlick_bsdf` with
-/// `retroreflective`. A node graph knows the direction to the viewer only, so that is what the entrance factors see
-/// ([`crate::EntranceCosine::Viewer`]), whatever the form of the sheeting.
+/// `retroreflective`. A lobe that keeps its width has `tangent_u` along the viewer's projection and `roughness_u` over N.V.
 #[must_use]
 pub fn to_mtlx(sheeting: &Sheeting, text: &MaterialText<'_>) -> String {
     let mut document = Document::new(text.comment);
     let name = identifier(text.name);
     let graph = format!("{name}_sheet");
     document.open("nodegraph", &[("name", &graph)]);
-    let factors = entrance_nodes(&mut document, sheeting);
+    let tints = entrance_nodes(&mut document, sheeting);
     let mut parts = Vec::new();
     for (i, lobe) in sheeting.lobes.iter().enumerate() {
         let part = format!("lobe_{}", i + 1);
-        let tint = document.tint(&part, rgb(text.colour, lobe.strength), factors[i].as_deref());
+        let tint = document.tint(&part, rgb(text.colour, lobe.strength), tints[i].as_deref());
         match sheeting.model {
             Model::BackVector => document.back_vector(&part, lobe.roughness.map(width), &tint),
+            _ if lobe.keeps_width(sheeting.model) => {
+                document.retro_reflective_of_one_width(&part, lobe.roughness[0], &tint);
+            }
             Model::Reciprocal | Model::Edwards => document.retro_reflective(&part, lobe.roughness, &tint),
         }
         parts.push(part);
@@ -77,32 +86,33 @@ pub fn to_mtlx(sheeting: &Sheeting, text: &MaterialText<'_>) -> String {
     document.finish()
 }
 
-/// The nodes of the entrance factors; for each lobe the name of its factor, where it has one.
+/// The nodes of the entrance laws and of the viewer's projection; for each lobe the name of what its tint is multiplied
+/// with, where there is something.
 fn entrance_nodes(document: &mut Document, sheeting: &Sheeting) -> Vec<Option<String>> {
-    let mut made: Vec<(EntranceFactor, String)> = Vec::new();
-    let mut names = Vec::new();
-    for lobe in &sheeting.lobes {
-        let factor = lobe.entrance;
-        if factor == EntranceFactor::default() {
-            names.push(None);
-            continue;
-        }
-        if made.is_empty() {
-            let forward = ("faceforward", "boolean", Binding::Value("true".to_owned()));
-            document.node("facingratio", "facing", "float", &[forward]);
-            let least = ("in2", "float", Binding::Value(number(LEAST_COSINE)));
-            document.node("max", "entrance_cosine", "float", &[in1("facing"), least]);
-        }
-        let known = made.iter().find(|(other, _)| *other == factor).map(|(_, name)| name.clone());
-        let name = known.unwrap_or_else(|| {
-            let name = format!("entrance_{}", made.len() + 1);
-            document.entrance(&name, &factor);
-            made.push((factor, name.clone()));
-            name
-        });
-        names.push(Some(name));
+    if sheeting.lobes.iter().any(|lobe| lobe.entrance.is_some()) {
+        let forward = ("faceforward", "boolean", Binding::Value("true".to_owned()));
+        document.node("facingratio", "facing", "float", &[forward]);
+        document.node("max", COSINE, "float", &[in1("facing"), in2(LEAST_COSINE)]);
     }
-    names
+    if sheeting.lobes.iter().any(|lobe| lobe.keeps_width(sheeting.model)) {
+        document.view_projection();
+    }
+    let mut made: Vec<(EntranceLaw, bool, String)> = Vec::new();
+    let mut tint = |lobe: &RetroLobe| {
+        let law = lobe.entrance?;
+        let over_cosine = lobe.keeps_width(sheeting.model);
+        let known = made.iter().find(|(other, over, _)| (*other, *over) == (law, over_cosine));
+        let known = known.map(|(.., name)| name.clone());
+        Some(known.unwrap_or_else(|| {
+            let name = format!("entrance_{}", made.len() + 1);
+            let bend =
+                made.iter().find(|(other, ..)| (other.bend, other.sharpness) == (law.bend, law.sharpness));
+            document.entrance(&name, &law, over_cosine, bend.map(|(.., name)| name.as_str()));
+            made.push((law, over_cosine, name.clone()));
+            name
+        }))
+    };
+    sheeting.lobes.iter().map(&mut tint).collect()
 }
 
 /// The sum of closures.
@@ -129,6 +139,10 @@ type Input<'a> = (&'a str, &'a str, Binding);
 
 fn in1(node: &str) -> Input<'static> {
     ("in1", "float", Binding::Node(node.to_owned()))
+}
+
+fn in2_node(node: &str) -> Input<'static> {
+    ("in2", "float", Binding::Node(node.to_owned()))
 }
 
 fn in2(value: f64) -> Input<'static> {
@@ -188,27 +202,68 @@ impl Document {
         self.close(category);
     }
 
-    /// `cosine^power exp(-((1 / cosine^2 - 1) / position)^steepness)`.
-    fn entrance(&mut self, name: &str, factor: &EntranceFactor) {
-        let power = if factor.knee.is_some() { format!("{name}_power") } else { name.to_owned() };
-        self.node("power", &power, "float", &[in1("entrance_cosine"), in2(factor.power)]);
-        let Some(knee) = factor.knee else { return };
-        let part = |part: &str| format!("{name}_{part}");
-        let [square, inverse, tangent, share, fall, limited, negative, drop] =
-            ["cosine2", "secant2", "tangent2", "share", "fall", "limited", "negative", "drop"].map(part);
-        let cosine = |input| (input, "float", Binding::Node("entrance_cosine".to_owned()));
-        self.node("multiply", &square, "float", &[cosine("in1"), cosine("in2")]);
-        let one = ("in1", "float", Binding::Value("1".to_owned()));
-        self.node("divide", &inverse, "float", &[one, ("in2", "float", Binding::Node(square))]);
-        self.node("subtract", &tangent, "float", &[in1(&inverse), in2(1.0)]);
-        self.node("divide", &share, "float", &[in1(&tangent), in2(knee.position)]);
-        // Rounding must not give a negative number to the power.
-        self.node("max", &format!("{share}_positive"), "float", &[in1(&share), in2(0.0)]);
-        self.node("power", &fall, "float", &[in1(&format!("{share}_positive")), in2(knee.steepness)]);
-        self.node("min", &limited, "float", &[in1(&fall), in2(DEEPEST_FALL)]);
-        self.node("multiply", &negative, "float", &[in1(&limited), in2(-1.0)]);
-        self.node("exp", &drop, "float", &[("in", "float", Binding::Node(negative))]);
-        self.node("multiply", name, "float", &[in1(&power), ("in2", "float", Binding::Node(drop))]);
+    /// The direction to the viewer without what of it is along the normal; its sign does not matter to an ellipse.
+    fn view_projection(&mut self) {
+        let vector = |input: &'static str, node: &str| (input, "vector3", Binding::Node(node.to_owned()));
+        let world = ("space", "string", Binding::Value("world".to_owned()));
+        for (category, name) in
+            [("viewdirection", "view"), ("normal", "normal_world"), ("tangent", "tangent_world")]
+        {
+            self.node(category, name, "vector3", std::slice::from_ref(&world));
+        }
+        self.node(
+            "dotproduct",
+            "view_cosine",
+            "float",
+            &[vector("in1", "view"), vector("in2", "normal_world")],
+        );
+        let cosine = ("in2", "float", Binding::Node("view_cosine".to_owned()));
+        self.node("multiply", "view_along_normal", "vector3", &[vector("in1", "normal_world"), cosine]);
+        let rest = [vector("in1", "view"), vector("in2", "view_along_normal")];
+        self.node("subtract", "view_across_normal", "vector3", &rest);
+        self.node(
+            "multiply",
+            "tangent_share",
+            "vector3",
+            &[vector("in1", "tangent_world"), in2(TANGENT_SHARE)],
+        );
+        let sum = [vector("in1", "view_across_normal"), vector("in2", "tangent_share")];
+        self.node("add", "view_with_tangent", "vector3", &sum);
+        self.node("normalize", PROJECTION, "vector3", &[vector("in", "view_with_tangent")]);
+    }
+
+    /// `(1 + ((1 / cosine^2 - 1) / bend)^(p/2))^(-q/p)`, or `cosine^q`; over the cosine where the lobe is made to keep its
+    /// width. `bend` is the law whose bend is the same, where there is one.
+    fn entrance(&mut self, name: &str, law: &EntranceLaw, over_cosine: bool, bend: Option<&str>) {
+        let EntranceLaw { slope, bend: squared_tangent, sharpness } = *law;
+        if law.is_power() {
+            let power = if over_cosine { slope - 1.0 } else { slope };
+            self.node("power", name, "float", &[in1(COSINE), in2(power)]);
+            return;
+        }
+        let sum = format!("{}_sum", bend.unwrap_or(name));
+        if bend.is_none() {
+            let part = |part: &str| format!("{name}_{part}");
+            let [square, inverse, tangent, share, positive, rise] =
+                ["cosine2", "secant2", "tangent2", "share", "share_positive", "rise"].map(part);
+            self.node("multiply", &square, "float", &[in1(COSINE), in2_node(COSINE)]);
+            let one = ("in1", "float", Binding::Value("1".to_owned()));
+            self.node("divide", &inverse, "float", &[one, in2_node(&square)]);
+            self.node("subtract", &tangent, "float", &[in1(&inverse), in2(1.0)]);
+            self.node("divide", &share, "float", &[in1(&tangent), in2(squared_tangent)]);
+            // Rounding must not give a negative number to the power.
+            self.node("max", &positive, "float", &[in1(&share), in2(0.0)]);
+            self.node("power", &rise, "float", &[in1(&positive), in2(0.5 * sharpness)]);
+            self.node("add", &sum, "float", &[in1(&rise), in2(1.0)]);
+        }
+        let exponent = in2(-slope / sharpness);
+        if over_cosine {
+            let law = format!("{name}_law");
+            self.node("power", &law, "float", &[in1(&sum), exponent]);
+            self.node("divide", name, "float", &[in1(&law), in2_node(COSINE)]);
+        } else {
+            self.node("power", name, "float", &[in1(&sum), exponent]);
+        }
     }
 
     /// The tint of a lobe: a value, or a node that multiplies it with a factor.
@@ -226,6 +281,20 @@ impl Document {
             inputs.push(("roughness_v", "float", Binding::Value(number(v))));
         }
         inputs.push(("tint", "color3", tint.clone()));
+        self.node("retro_reflective_bsdf", name, "BSDF", &inputs);
+    }
+
+    /// The lobe whose angular width is the same at every entrance angle.
+    fn retro_reflective_of_one_width(&mut self, name: &str, roughness: f64, tint: &Binding) {
+        let along = format!("{name}_roughness_u");
+        let value = ("in1", "float", Binding::Value(number(roughness)));
+        self.node("divide", &along, "float", &[value, in2_node(COSINE)]);
+        let inputs = [
+            ("roughness_u", "float", Binding::Node(along)),
+            ("roughness_v", "float", Binding::Value(number(roughness))),
+            ("tint", "color3", tint.clone()),
+            ("tangent_u", "vector3", Binding::Node(PROJECTION.to_owned())),
+        ];
         self.node("retro_reflective_bsdf", name, "BSDF", &inputs);
     }
 

@@ -1,34 +1,38 @@
 //! Sheeting as a sum of lobes: what a fit looks for, and what a written material is.
 
+use std::f64::consts::PI;
+use std::sync::LazyLock;
+
 use catseye::{AnyLobe, Lobe as _, Model, ParamError, Params, Vec3};
 
-use crate::entrance::{EntranceFactor, LEAST_COSINE};
+use crate::entrance::{EntranceLaw, LEAST_COSINE, log_squared_tangent};
 
 /// Cosines over which the energy is bounded.
 const ENERGY_STEPS: usize = 96;
-
-/// Which cosine the entrance factors see.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum EntranceCosine {
-    /// That of the direction to the viewer: all that a node graph knows. The sum is not reciprocal.
-    #[default]
-    Viewer,
-    /// The geometric mean of both cosines: reciprocal, and the same in the retro direction.
-    Reciprocal,
-}
+/// Length of a projected direction below which it has no azimuth: there all lobes are round.
+const NO_AZIMUTH: f64 = 1e-12;
 
 /// One lobe of a sheeting.
+///
+/// A lobe of one roughness with a law has the same angular width at every entrance angle, as beads and prisms have: along
+/// the viewer's projection its roughness is that over N.V, and its tint is `strength` F / (N.V), so that `R_A` at the
+/// observation angle 0 is F times that at normal incidence (docs/theory.md, section 10). A lobe of two roughnesses lies
+/// along the datum axis, its tint is `strength` F, and in the plane of incidence it narrows with the cosine, as the node
+/// does. The back-vector lobe keeps its width there by itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RetroLobe {
     /// Luminance of the tint at normal incidence.
     pub strength: f64,
     /// Roughness along and across the datum axis, the proposal's in every model.
     pub roughness: [f64; 2],
-    /// How the strength depends on the entrance angle.
-    pub entrance: EntranceFactor,
+    /// How the strength depends on the entrance angle, if it does.
+    pub entrance: Option<EntranceLaw>,
 }
 
 /// A retro-reflective material in terms of luminance: lobes, a diffuse base, and a clear coat over both.
+///
+/// The laws see the direction to the viewer: all that a node graph knows. So the sum is not reciprocal;
+/// [`crate::fit::Fit::reciprocity_cost`] says by how much.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Sheeting {
     /// Which lobe model.
@@ -39,8 +43,20 @@ pub struct Sheeting {
     pub diffuse: f64,
     /// Refractive index of a smooth clear coat, where there is one.
     pub coat_ior: Option<f64>,
-    /// Which cosine the entrance factors see.
-    pub form: EntranceCosine,
+}
+
+impl RetroLobe {
+    /// Whether the lobe is made to keep its angular width over the entrance angle.
+    #[must_use]
+    pub fn keeps_width(&self, model: Model) -> bool {
+        self.entrance.is_some() && self.roughness[0] == self.roughness[1] && model != Model::BackVector
+    }
+
+    /// The factor of the strength for a cosine of the viewer's direction.
+    pub(crate) fn factor(&self, model: Model, cosine: f64) -> f64 {
+        let law = self.entrance.map_or(1.0, |law| law.at(cosine));
+        if self.keeps_width(model) { law / cosine.clamp(LEAST_COSINE, 1.0) } else { law }
+    }
 }
 
 impl Sheeting {
@@ -49,17 +65,8 @@ impl Sheeting {
     /// # Errors
     /// The first roughness that is NaN or outside the range of the lobe model.
     pub fn prepare(&self) -> Result<PreparedSheeting<'_>, ParamError> {
-        let lobes = self.lobes.iter().map(|lobe| unit_lobe(self.model, lobe.roughness));
+        let lobes = self.lobes.iter().map(|lobe| UnitLobe::new(self.model, lobe));
         Ok(PreparedSheeting { sheeting: self, lobes: lobes.collect::<Result<_, _>>()? })
-    }
-
-    /// The cosine that the entrance factors see.
-    #[must_use]
-    pub(crate) fn entrance_cosine(&self, wo: Vec3<f64>, wi: Vec3<f64>) -> f64 {
-        match self.form {
-            EntranceCosine::Viewer => wo.z,
-            EntranceCosine::Reciprocal => (wo.z * wi.z).max(0.0).sqrt(),
-        }
     }
 
     /// What the coat lets through: as a layer in MaterialX, once, by the direction to the viewer.
@@ -69,39 +76,87 @@ impl Sheeting {
     }
 
     /// An upper bound of the albedo over all directions, in luminance: the lobes lose nothing.
+    ///
+    /// The greatest sum of tints over the viewer's direction, at 97 cosines from 0.01 to 1.
     #[must_use]
     pub fn albedo_bound(&self) -> f64 {
-        let at = |i: usize| {
-            let c = LEAST_COSINE + (1.0 - LEAST_COSINE) * i as f64 / ENERGY_STEPS as f64;
-            self.lobes.iter().map(|lobe| lobe.strength * lobe.entrance.at(c)).sum::<f64>()
+        /// 1 / c and the logarithm of the squared tangent.
+        static NODES: LazyLock<Vec<[f64; 2]>> = LazyLock::new(|| {
+            let cosine = |i| LEAST_COSINE + (1.0 - LEAST_COSINE) * i as f64 / ENERGY_STEPS as f64;
+            (0..=ENERGY_STEPS).map(cosine).map(|c| [1.0 / c, log_squared_tangent(c)]).collect()
+        });
+        let at = |[inverse, log_tangent]: &[f64; 2]| -> f64 {
+            let tint = |lobe: &RetroLobe| {
+                let law = lobe.entrance.map_or(1.0, |law| law.log_gradient(*log_tangent).log.exp());
+                lobe.strength * law * if lobe.keeps_width(self.model) { *inverse } else { 1.0 }
+            };
+            self.lobes.iter().map(tint).sum()
         };
-        self.diffuse + (0..=ENERGY_STEPS).map(at).fold(0.0, f64::max)
+        self.diffuse + NODES.iter().map(at).fold(0.0, f64::max)
     }
-}
-
-/// A lobe of strength 1.
-pub(crate) fn unit_lobe(model: Model, [u, v]: [f64; 2]) -> Result<AnyLobe<f64>, ParamError> {
-    AnyLobe::new(model, &Params::anisotropic(u, v))
 }
 
 /// A [`Sheeting`] ready for evaluation.
 #[derive(Clone, Debug)]
 pub struct PreparedSheeting<'a> {
     sheeting: &'a Sheeting,
-    lobes: Vec<AnyLobe<f64>>,
+    lobes: Vec<UnitLobe>,
 }
 
 impl PreparedSheeting<'_> {
     /// The BSDF in 1/sr, in luminance, without the reflection by the surface of the coat.
     #[must_use]
     pub fn eval(&self, wo: Vec3<f64>, wi: Vec3<f64>) -> f64 {
-        let cosine = self.sheeting.entrance_cosine(wo, wi);
+        let Sheeting { model, diffuse, .. } = *self.sheeting;
         let lobes = self.sheeting.lobes.iter().zip(&self.lobes);
         let retro: f64 =
-            lobes.map(|(own, lobe)| own.strength * own.entrance.at(cosine) * lobe.eval(wo, wi)[0]).sum();
-        let diffuse = if wo.z.min(wi.z) > 0.0 { self.sheeting.diffuse / core::f64::consts::PI } else { 0.0 };
+            lobes.map(|(own, lobe)| own.strength * own.factor(model, wo.z) * lobe.eval(wo, wi)).sum();
+        let diffuse = if wo.z.min(wi.z) > 0.0 { diffuse / PI } else { 0.0 };
         self.sheeting.transmitted(wo) * (retro + diffuse)
     }
+}
+
+/// A lobe of strength 1.
+#[derive(Clone, Debug)]
+pub(crate) enum UnitLobe {
+    /// Along the datum axis, the same for all directions.
+    Fixed(Box<AnyLobe<f64>>),
+    /// Along the viewer's projection, of this roughness over N.V there and of this roughness across it.
+    KeepsWidth(Model, f64),
+}
+
+impl UnitLobe {
+    pub(crate) fn new(model: Model, lobe: &RetroLobe) -> Result<Self, ParamError> {
+        let [u, v] = lobe.roughness;
+        let fixed = AnyLobe::new(model, &Params::anisotropic(u, v))?;
+        Ok(if lobe.keeps_width(model) { Self::KeepsWidth(model, u) } else { Self::Fixed(Box::new(fixed)) })
+    }
+
+    /// The BSDF in 1/sr.
+    pub(crate) fn eval(&self, wo: Vec3<f64>, wi: Vec3<f64>) -> f64 {
+        match self {
+            Self::Fixed(lobe) => lobe.eval(wo, wi)[0],
+            &Self::KeepsWidth(model, roughness) => {
+                let [wo, wi] = along_projection(wo, wi);
+                let params = Params::anisotropic(roughness / wo.z.max(LEAST_COSINE), roughness);
+                // Edwards' lobe has nothing to prepare; the reciprocal one is it times min(1, z_i/z_o)^3 (theory.md, 3).
+                let reciprocal =
+                    if model == Model::Reciprocal { (wi.z / wo.z).clamp(0.0, 1.0).powi(3) } else { 1.0 };
+                let edwards = AnyLobe::new(Model::Edwards, &params);
+                edwards.map_or(0.0, |lobe| reciprocal * lobe.eval(wo, wi)[0])
+            }
+        }
+    }
+}
+
+/// Both directions in the frame whose x axis is the projection of `wo`.
+fn along_projection(wo: Vec3<f64>, wi: Vec3<f64>) -> [Vec3<f64>; 2] {
+    let length = wo.x.hypot(wo.y);
+    if length < NO_AZIMUTH {
+        return [wo, wi];
+    }
+    let (cos, sin) = (wo.x / length, wo.y / length);
+    [wo, wi].map(|w| Vec3::new(w.x * cos + w.y * sin, w.y * cos - w.x * sin, w.z))
 }
 
 /// Reflectance of a smooth dielectric for unpolarised light that arrives from outside.

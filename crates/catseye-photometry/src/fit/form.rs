@@ -2,8 +2,8 @@
 
 use catseye::Model;
 
-use crate::entrance::{EntranceFactor, Knee};
-use crate::sheeting::{EntranceCosine, RetroLobe, Sheeting};
+use crate::entrance::EntranceLaw;
+use crate::sheeting::{RetroLobe, Sheeting};
 
 /// Narrowest and widest roughness that is looked for: half-power angles of 0.03 degrees, and all there is.
 const ROUGHNESS: [f64; 2] = [5e-4, 3.0];
@@ -13,13 +13,17 @@ const LEAST_STRENGTH: f64 = 1e-7;
 /// 0.14 and roughnesses of 0.003 to 0.02.
 const STRENGTH_PRIOR: [f64; 2] = [0.05, 5.0];
 const ROUGHNESS_PRIOR: [f64; 2] = [0.008, 2.5];
-/// Exponents of the cosine. What a surface catches falls with the cosine, so R_A falls at least as fast; a slower fall
-/// would glow towards the horizon. Beside a knee, which ends that, the exponent may be negative.
-const POWER: [f64; 2] = [1.0, 40.0];
-const POWER_BESIDE_KNEE: f64 = -3.0;
-/// Squared tangent at the knee: 6 to 63 degrees. A steeper knee than the steepest is an edge on the material.
-const KNEE_POSITION: [f64; 2] = [0.01, 4.0];
-const KNEE_STEEPNESS: [f64; 2] = [1.0, 8.0];
+/// Powers of the cosine, and of the tangent beyond a bend. What a surface catches falls with the cosine, so `R_A` falls at
+/// least as fast. At most it falls by (tan 60 / tan 50)^6 = 9.4 in the 10 degrees up to 60, and by 28 in those up to 75.
+const POWER: [f64; 2] = [1.0, 6.0];
+/// Squared tangent at the bend: 30 to 70 degrees. Below 30 a sharp bend would fall by more than ten times in 10 degrees.
+const BEND: [f64; 2] = [1.0 / 3.0, 7.55];
+/// Sharpness of the bend: 2 is that of a power of the cosine; at 12 it is over within 10 degrees.
+const SHARPNESS: [f64; 2] = [2.0, 12.0];
+/// What beads and metallised cubes have: 45 to 50 degrees, 2 to 3, and a power of about 3.
+const POWER_PRIOR: [f64; 2] = [3.0, 2.0];
+const BEND_PRIOR: [f64; 2] = [1.0, 1.7];
+const SHARPNESS_PRIOR: [f64; 2] = [2.0, 2.0];
 
 /// How a lobe's strength may depend on the entrance angle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
@@ -29,8 +33,8 @@ pub enum EntranceKind {
     Constant,
     /// As a power of the cosine.
     Power,
-    /// As a power of the cosine that breaks off.
-    Knee,
+    /// Flat at first, one bend, then a power of the tangent.
+    Bend,
 }
 
 /// The shape of a sheeting: what a fit is free to choose.
@@ -40,9 +44,9 @@ pub struct Form {
     pub model: Model,
     /// Lobes, at least 1.
     pub lobes: usize,
-    /// The kind of the entrance factors.
+    /// The kind of the entrance laws.
     pub entrance: EntranceKind,
-    /// Whether all lobes have the same entrance factor.
+    /// Whether all lobes have the same entrance law; if not, each has its own power, and the bend is common.
     pub shared: bool,
     /// Whether a lobe has two roughnesses.
     pub anisotropic: bool,
@@ -52,8 +56,6 @@ pub struct Form {
     pub roughness: Option<f64>,
     /// Refractive index of the clear coat, where there is one.
     pub coat_ior: Option<f64>,
-    /// Which cosine the entrance factors see.
-    pub entrance_cosine: EntranceCosine,
 }
 
 /// What a number of the fit is.
@@ -63,12 +65,12 @@ pub enum Meaning {
     Strength(usize),
     /// Logarithm of a lobe's roughness along (0) or across (1) the datum axis, or both (`None`).
     Roughness(usize, Option<usize>),
-    /// Exponent of the cosine: of a lobe, or of all (`None`).
+    /// Exponent of the cosine, and of the tangent beyond a bend: of a lobe, or of all (`None`).
     Power(Option<usize>),
-    /// Logarithm of the knee's position.
-    Position(Option<usize>),
-    /// Logarithm of the knee's steepness.
-    Steepness(Option<usize>),
+    /// Logarithm of the squared tangent of the bend's entrance angle.
+    Bend,
+    /// Logarithm of the bend's sharpness.
+    Sharpness,
     /// Logarithm of the albedo of the base.
     Diffuse,
 }
@@ -90,10 +92,14 @@ impl Unknown {
 }
 
 impl Meaning {
-    /// Whether the number is the logarithm of the quantity.
+    /// The quantity for a number of the fit; of the bend its angle in degrees.
     #[must_use]
-    pub fn is_log(self) -> bool {
-        !matches!(self, Self::Power(_))
+    pub(crate) fn quantity(self, x: f64) -> f64 {
+        match self {
+            Self::Power(_) => x,
+            Self::Bend => (0.5 * x).exp().atan().to_degrees(),
+            _ => x.exp(),
+        }
     }
 
     /// Whether the number belongs to the lobe.
@@ -101,7 +107,8 @@ impl Meaning {
     pub(crate) fn concerns(self, lobe: usize) -> bool {
         match self {
             Self::Strength(i) | Self::Roughness(i, _) => i == lobe,
-            Self::Power(i) | Self::Position(i) | Self::Steepness(i) => i.is_none_or(|i| i == lobe),
+            Self::Power(i) => i.is_none_or(|i| i == lobe),
+            Self::Bend | Self::Sharpness => true,
             Self::Diffuse => false,
         }
     }
@@ -119,8 +126,8 @@ impl Meaning {
             Self::Roughness(i, Some(0)) => of(Some(i), "roughness_u"),
             Self::Roughness(i, Some(_)) => of(Some(i), "roughness_v"),
             Self::Power(i) => of(i, "entrance power"),
-            Self::Position(i) => of(i, "entrance knee position"),
-            Self::Steepness(i) => of(i, "entrance knee steepness"),
+            Self::Bend => "entrance bend (deg)".to_owned(),
+            Self::Sharpness => "entrance sharpness".to_owned(),
             Self::Diffuse => "diffuse albedo".to_owned(),
         }
     }
@@ -138,27 +145,22 @@ impl Form {
                 unknowns.extend(axes.iter().map(roughness));
             }
         }
-        let owners: Vec<_> = if self.shared { vec![None] } else { (0..self.lobes).map(Some).collect() };
-        for owner in owners {
-            self.entrance_unknowns(owner, &mut unknowns);
+        if self.entrance != EntranceKind::Constant {
+            let owners = if self.shared { vec![None] } else { (0..self.lobes).map(Some).collect() };
+            unknowns.extend(owners.into_iter().map(|owner| Unknown {
+                meaning: Meaning::Power(owner),
+                bounds: POWER,
+                prior: POWER_PRIOR,
+            }));
+        }
+        if self.entrance == EntranceKind::Bend {
+            unknowns.push(log(Meaning::Bend, BEND, BEND_PRIOR));
+            unknowns.push(log(Meaning::Sharpness, SHARPNESS, SHARPNESS_PRIOR));
         }
         if self.diffuse {
             unknowns.push(log(Meaning::Diffuse, [LEAST_STRENGTH, 1.0], [0.3, 3.0]));
         }
         unknowns
-    }
-
-    fn entrance_unknowns(&self, owner: Option<usize>, unknowns: &mut Vec<Unknown>) {
-        let knee = self.entrance == EntranceKind::Knee;
-        if self.entrance != EntranceKind::Constant {
-            let least = if knee { POWER_BESIDE_KNEE } else { POWER[0] };
-            let meaning = Meaning::Power(owner);
-            unknowns.push(Unknown { meaning, bounds: [least, POWER[1]], prior: [1.0, 3.0] });
-        }
-        if knee {
-            unknowns.push(log(Meaning::Position(owner), KNEE_POSITION, [0.7, 2.0]));
-            unknowns.push(log(Meaning::Steepness(owner), KNEE_STEEPNESS, [4.0, 3.0]));
-        }
     }
 
     /// The sheeting that a vector describes.
@@ -167,11 +169,13 @@ impl Form {
             |wanted: Meaning| unknowns.iter().position(|unknown| unknown.meaning == wanted).map(|i| x[i]);
         let entrance = |lobe: usize| {
             let owner = (!self.shared).then_some(lobe);
-            let position = find(Meaning::Position(owner)).zip(find(Meaning::Steepness(owner)));
-            EntranceFactor {
-                power: find(Meaning::Power(owner)).unwrap_or(0.0),
-                knee: position.map(|(p, s)| Knee { position: p.exp(), steepness: s.exp() }),
-            }
+            let law = EntranceLaw::power(find(Meaning::Power(owner))?);
+            Some(match find(Meaning::Bend).zip(find(Meaning::Sharpness)) {
+                Some((bend, sharpness)) => {
+                    EntranceLaw { bend: bend.exp(), sharpness: sharpness.exp(), ..law }
+                }
+                None => law,
+            })
         };
         let roughness = |lobe: usize| {
             let of = |axis| find(Meaning::Roughness(lobe, axis)).map(f64::exp);
@@ -188,8 +192,40 @@ impl Form {
             lobes: (0..self.lobes).map(lobe).collect(),
             diffuse: find(Meaning::Diffuse).map_or(0.0, f64::exp),
             coat_ior: self.coat_ior,
-            form: self.entrance_cosine,
         }
+    }
+}
+
+impl Form {
+    /// The numbers of this form that describe a sheeting of a simpler form; `None` where that is no case of this one.
+    ///
+    /// A lobe more shares the strength of the last one, with the same roughness.
+    pub(crate) fn embed(&self, simpler: &Self, x: &[f64]) -> Option<Vec<f64>> {
+        let more = self.lobes.checked_sub(simpler.lobes)?;
+        let is_case = simpler.entrance <= self.entrance
+            && (simpler.entrance == EntranceKind::Constant) == (self.entrance == EntranceKind::Constant)
+            && (simpler.shared || !self.shared || simpler.lobes == 1);
+        if !is_case {
+            return None;
+        }
+        let known = simpler.unknowns();
+        let find = |wanted: Meaning| known.iter().position(|unknown| unknown.meaning == wanted).map(|i| x[i]);
+        let last = simpler.lobes - 1;
+        let value = |unknown: Unknown| match unknown.meaning {
+            Meaning::Strength(i) => {
+                let parts = if i >= last { 1.0 + more as f64 } else { 1.0 };
+                find(Meaning::Strength(i.min(last))).map(|x| x - parts.ln())
+            }
+            Meaning::Roughness(i, axis) => find(Meaning::Roughness(i.min(last), axis)),
+            Meaning::Power(owner) => {
+                find(Meaning::Power(None)).or_else(|| find(Meaning::Power(owner.map(|i| i.min(last)))))
+            }
+            // A power of the cosine is a law with this bend and this sharpness.
+            Meaning::Bend => Some(find(Meaning::Bend).unwrap_or(0.0)),
+            Meaning::Sharpness => Some(find(Meaning::Sharpness).unwrap_or(2.0_f64.ln())),
+            Meaning::Diffuse => find(Meaning::Diffuse),
+        };
+        self.unknowns().into_iter().map(value).collect()
     }
 }
 

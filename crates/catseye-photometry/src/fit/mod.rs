@@ -1,6 +1,6 @@
 //! Fits: from photometric values to the lobes of a material.
 //!
-//! A model of 1 to 3 lobes with entrance factors ([`Form`]) is fitted to the logarithms of the values by
+//! A model of 1 to 3 lobes with entrance laws ([`Form`]) is fitted to the logarithms of the values by
 //! Levenberg and Marquardt's method. Every number is kept within bounds, the albedo of every direction at 1 or less, and a
 //! number that the data leave open near a weak prior, with a warning. Where a table's worst row is beyond the tolerance
 //! its weight grows until the worst error is as small as it gets (Lawson's algorithm). Without a wish, the form with the
@@ -9,6 +9,7 @@
 mod error;
 mod form;
 mod observation;
+mod physical;
 mod problem;
 mod select;
 mod shape;
@@ -18,13 +19,14 @@ mod uncertainty;
 pub use error::{FitError, MAX_VALUES};
 pub use form::{EntranceKind, Form, Meaning};
 pub use observation::{Aim, Observation, RowError, View};
+pub use physical::Fault;
 pub use select::MAX_LOBES;
 pub use shape::ShapeBound;
 pub use uncertainty::Estimate;
 
 use catseye::Model;
 
-use crate::sheeting::{EntranceCosine, Sheeting};
+use crate::sheeting::Sheeting;
 use solve::{Solution, TABLE_ROWS};
 
 /// The worst error of a row that a fit may have: values on data sheets are not better than that.
@@ -47,8 +49,6 @@ pub struct FitOptions {
     pub diffuse: bool,
     /// Refractive index of a clear coat over the lobes, if there is one.
     pub coat_ior: Option<f64>,
-    /// Which cosine the entrance factors see.
-    pub entrance_cosine: EntranceCosine,
     /// The worst error that is accepted, as a share of the value.
     pub tolerance: f64,
     /// Greatest channel of the material's colour over its luminance: energy is conserved in each channel.
@@ -65,7 +65,6 @@ impl Default for FitOptions {
             isotropic: false,
             diffuse: false,
             coat_ior: None,
-            entrance_cosine: EntranceCosine::Viewer,
             tolerance: TOLERANCE,
             channel_peak: 1.0,
         }
@@ -83,6 +82,8 @@ pub struct Trial {
     pub worst: f64,
     /// Root mean square of the rows' errors, as logarithms.
     pub rms: f64,
+    /// Where over the entrance angle it is not what sheeting can be, if anywhere.
+    pub fault: Option<Fault>,
 }
 
 /// A fitted material and how good it is.
@@ -100,8 +101,11 @@ pub struct Fit {
     pub worst: f64,
     /// Root mean square of the rows' errors, as logarithms.
     pub rms: f64,
-    /// Whether every row is within the tolerance; of many rows (measurements) their root mean square.
+    /// Whether every row is within the tolerance, of many rows (measurements) their root mean square, and the material is
+    /// physical between and beyond the rows.
     pub acceptable: bool,
+    /// Where between or beyond the rows the material is not what sheeting can be, if anywhere.
+    pub fault: Option<Fault>,
     /// What no sum of lobes can do better, where the table has such rows.
     pub shape: Option<ShapeBound>,
     /// The forms that were tried, in order.
@@ -126,13 +130,15 @@ pub fn fit(observations: &[Observation], options: &FitOptions) -> Result<Fit, Fi
     let is_table = observations.len() <= TABLE_ROWS;
     let shape =
         (is_table && options.model == Model::Reciprocal).then(|| shape::shape_bound(observations)).flatten();
+    let fault = span.fault(&solution);
     Ok(Fit {
         form: solution.form,
         estimates,
         ratios: solution.log_ratios.iter().map(|log| log.exp()).collect(),
         worst: solution.worst,
         rms: solution.rms,
-        acceptable: is_acceptable(&solution, observations.len(), options.tolerance),
+        acceptable: fault.is_none() && is_acceptable(&solution, observations.len(), options.tolerance),
+        fault,
         shape: shape.filter(|bound| bound.error > options.tolerance),
         trials,
         warnings,
@@ -146,15 +152,14 @@ fn is_acceptable(solution: &Solution, rows: usize, tolerance: f64) -> bool {
 }
 
 impl Fit {
-    /// The greatest difference, as a share of the value, that the reciprocal form of the entrance factors makes in an
-    /// observation: what it costs that a node graph knows only the direction to the viewer.
+    /// By how much, as a share, the BSDF of an observation differs at most where viewer and light change places: what it
+    /// costs that a node graph knows only the direction to the viewer.
     #[must_use]
-    pub fn cost_of_view_form(&self, observations: &[Observation]) -> f64 {
-        let with = |form| {
-            let sheeting = Sheeting { form, ..self.sheeting.clone() };
-            problem::log_ratios(&sheeting, observations).unwrap_or_default()
-        };
-        let (view, reciprocal) = (with(EntranceCosine::Viewer), with(EntranceCosine::Reciprocal));
-        view.iter().zip(&reciprocal).map(|(a, b)| (a - b).abs()).fold(0.0, f64::max).exp_m1()
+    pub fn reciprocity_cost(&self, observations: &[Observation]) -> f64 {
+        let Ok(prepared) = self.sheeting.prepare() else { return f64::NAN };
+        let ratio =
+            |view: &View| (prepared.eval(view.wo, view.wi) / prepared.eval(view.wi, view.wo)).ln().abs();
+        let retro = observations.iter().filter(|row| row.is_retro());
+        retro.flat_map(|row| &row.views).map(ratio).fold(0.0, f64::max).exp_m1()
     }
 }

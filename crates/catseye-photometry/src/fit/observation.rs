@@ -80,8 +80,7 @@ impl Observation {
     /// The middle of the directions: to the receiver, to the source. An aperture's views surround what is meant.
     pub(crate) fn centre(&self) -> Geometry {
         let mean = |of: fn(&View) -> Vec3<f64>| {
-            let add = |a: Vec3<f64>, b: Vec3<f64>| Vec3::new(a.x + b.x, a.y + b.y, a.z + b.z);
-            self.views.iter().map(of).fold(Vec3::default(), add).normalized()
+            self.views.iter().map(of).fold(Vec3::default(), |sum, w| sum + w).normalized()
         };
         Geometry { wo: mean(|view| view.wo), wi: mean(|view| view.wi) }
     }

@@ -1,13 +1,12 @@
 //! The least-squares problem: logarithms of model over value, with bounds and the conservation of energy.
 
-use catseye::{AnyLobe, Lobe as _};
 use levenberg_marquardt::LeastSquaresProblem;
 use nalgebra::{DMatrix, DVector, Dyn, Owned};
 
 use super::form::{Form, Meaning, Unknown};
 use super::observation::{Aim, Observation, View};
-use crate::entrance::LogGradient;
-use crate::sheeting::{Sheeting, unit_lobe};
+use crate::entrance::{LogGradient, log_squared_tangent};
+use crate::sheeting::{RetroLobe, Sheeting, UnitLobe};
 
 /// Step of the logarithm of a roughness in the difference quotients: their error is below 1e-8.
 const ROUGHNESS_STEP: f64 = 1e-4;
@@ -37,9 +36,9 @@ pub(crate) struct Problem<'a> {
 
 /// What a lobe sends along the views of an observation, without its strength and entrance factor.
 struct UnitLobes {
-    middle: AnyLobe<f64>,
+    middle: UnitLobe,
     /// With the roughness a step up and down, for each axis or both.
-    stepped: Vec<(Option<usize>, [AnyLobe<f64>; 2])>,
+    stepped: Vec<(Option<usize>, [UnitLobe; 2])>,
 }
 
 impl<'a> Problem<'a> {
@@ -83,8 +82,7 @@ impl<'a> Problem<'a> {
     pub(crate) fn log_jacobian(&self) -> Option<DMatrix<f64>> {
         let sheeting = self.sheeting();
         let lobes = sheeting.lobes.iter().enumerate();
-        let lobes: Vec<_> =
-            lobes.map(|(i, lobe)| self.unit_lobes(i, lobe.roughness)).collect::<Option<_>>()?;
+        let lobes: Vec<_> = lobes.map(|(i, lobe)| self.unit_lobes(i, lobe)).collect::<Option<_>>()?;
         let mut jacobian = DMatrix::zeros(self.observations.len(), self.unknowns.len());
         let mut row = vec![0.0; self.unknowns.len()];
         for (j, observation) in self.observations.iter().enumerate() {
@@ -101,10 +99,11 @@ impl<'a> Problem<'a> {
         Some(jacobian)
     }
 
-    fn unit_lobes(&self, lobe: usize, roughness: [f64; 2]) -> Option<UnitLobes> {
+    fn unit_lobes(&self, lobe: usize, own: &RetroLobe) -> Option<UnitLobes> {
         let with = |axis: Option<usize>, step: f64| {
             let moved = |i: usize| if axis.is_none_or(|axis| axis == i) { step.exp() } else { 1.0 };
-            unit_lobe(self.form.model, [roughness[0] * moved(0), roughness[1] * moved(1)]).ok()
+            let roughness = [0, 1].map(|i| own.roughness[i] * moved(i));
+            UnitLobe::new(self.form.model, &RetroLobe { roughness, ..*own }).ok()
         };
         let axes = self.unknowns.iter().filter_map(|unknown| match unknown.meaning {
             Meaning::Roughness(i, axis) if i == lobe => Some(axis),
@@ -121,18 +120,18 @@ impl<'a> Problem<'a> {
     fn accumulate(&self, sheeting: &Sheeting, lobes: &[UnitLobes], view: &View, row: &mut [f64]) -> f64 {
         let View { wo, wi, factor } = *view;
         let factor = factor * sheeting.transmitted(wo);
-        let cosine = sheeting.entrance_cosine(wo, wi);
+        let log_tangent = log_squared_tangent(wo.z);
         let mut total = 0.0;
         for (i, (own, lobe)) in sheeting.lobes.iter().zip(lobes).enumerate() {
-            let gradient = own.entrance.log_gradient(cosine);
-            let common = factor * own.strength * gradient.value;
-            let value = common * lobe.middle.eval(wo, wi)[0];
+            let gradient = own.entrance.map(|law| law.log_gradient(log_tangent));
+            let common = factor * own.strength * own.factor(self.form.model, wo.z);
+            let value = common * lobe.middle.eval(wo, wi);
             total += value;
             for (unknown, slot) in self.unknowns.iter().zip(&mut *row) {
                 if unknown.meaning.concerns(i) {
                     *slot += match unknown.meaning {
                         Meaning::Roughness(_, axis) => common * lobe.slope(axis, view),
-                        meaning => value * by(meaning, &gradient),
+                        meaning => value * by(meaning, gradient),
                     };
                 }
             }
@@ -156,19 +155,19 @@ impl UnitLobes {
     /// The derivative of the BSDF by the logarithm of the roughness.
     fn slope(&self, axis: Option<usize>, view: &View) -> f64 {
         let found = self.stepped.iter().find(|(of, _)| *of == axis);
-        let difference = |[up, down]: &[AnyLobe<f64>; 2]| {
-            (up.eval(view.wo, view.wi)[0] - down.eval(view.wo, view.wi)[0]) / (2.0 * ROUGHNESS_STEP)
+        let difference = |[up, down]: &[UnitLobe; 2]| {
+            (up.eval(view.wo, view.wi) - down.eval(view.wo, view.wi)) / (2.0 * ROUGHNESS_STEP)
         };
         found.map_or(0.0, |(_, pair)| difference(pair))
     }
 }
 
 /// The derivative of a lobe's logarithm by a number that is not its roughness.
-fn by(meaning: Meaning, gradient: &LogGradient) -> f64 {
-    match meaning {
-        Meaning::Power(_) => gradient.by_power,
-        Meaning::Position(_) => gradient.by_log_position,
-        Meaning::Steepness(_) => gradient.by_log_steepness,
+fn by(meaning: Meaning, gradient: Option<LogGradient>) -> f64 {
+    match (meaning, gradient) {
+        (Meaning::Power(_), Some(gradient)) => gradient.by_slope,
+        (Meaning::Bend, Some(gradient)) => gradient.by_log_bend,
+        (Meaning::Sharpness, Some(gradient)) => gradient.by_log_sharpness,
         _ => 1.0,
     }
 }

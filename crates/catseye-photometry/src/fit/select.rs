@@ -2,12 +2,15 @@
 
 use super::form::{EntranceKind, Form};
 use super::observation::{Aim, Observation};
+use super::physical::Fault;
 use super::solve::{Solution, TABLE_ROWS, polish, solve};
 use super::{FitError, FitOptions, Trial, is_acceptable};
 use crate::Geometry;
 
 /// Most lobes of a fit.
 pub const MAX_LOBES: usize = 3;
+/// Most lobes that a table of a few rows is given without being asked: a third one hardly ever helps.
+const MAX_LOBES_OF_TABLE: usize = 2;
 /// Angles that differ by less than this are one: a hundredth of a degree.
 const SAME_ANGLE: f64 = 1.8e-4;
 
@@ -66,14 +69,22 @@ impl Span {
         warnings
     }
 
-    /// The forms to try, those with fewer numbers first.
-    fn forms(&self, options: &FitOptions) -> Vec<Form> {
+    /// Where a solution is not what sheeting can be. One that models nothing over the entrance angle is not asked: the
+    /// warning of values at a single entrance angle says so.
+    pub(crate) fn fault(&self, solution: &Solution) -> Option<Fault> {
+        let is_modelled = solution.form.entrance != EntranceKind::Constant;
+        is_modelled.then(|| solution.sheeting.fault(&self.observation)).flatten()
+    }
+
+    /// The forms to try for so many rows, those with fewer numbers first.
+    fn forms(&self, options: &FitOptions, rows: usize) -> Vec<Form> {
         let lobes = options.lobes.or(options.roughness.map(|_| 1));
-        let lobes = lobes.map_or(1..=MAX_LOBES, |lobes| lobes..=lobes);
+        let most = if rows > TABLE_ROWS { MAX_LOBES } else { MAX_LOBES_OF_TABLE };
+        let lobes = lobes.map_or(1..=most, |lobes| lobes..=lobes);
         let kinds = match options.entrance {
             Some(kind) => vec![kind],
             None if self.entrance.len() == 1 => vec![EntranceKind::Constant],
-            None => vec![EntranceKind::Constant, EntranceKind::Power, EntranceKind::Knee],
+            None => vec![EntranceKind::Power, EntranceKind::Bend],
         };
         let mut forms = Vec::new();
         for lobes in lobes {
@@ -89,12 +100,11 @@ impl Span {
                         diffuse: options.diffuse,
                         roughness: options.roughness,
                         coat_ior: options.coat_ior,
-                        entrance_cosine: options.entrance_cosine,
                     });
                 }
             }
         }
-        // A knee where a power does would be read as a measured one.
+        // A bend where a power does would be read as a measured one.
         forms.sort_by_key(|form| (form.unknowns().len(), form.entrance, form.lobes));
         forms
     }
@@ -121,22 +131,27 @@ pub(crate) fn choose(
         false => Judged::Noise,
     };
     let mut trials = Vec::new();
-    let mut best: Option<Solution> = None;
-    for form in span.forms(options) {
-        let Some(found) = solve(form, observations, options.channel_peak, options.tolerance) else {
+    let mut found: Vec<(Solution, bool)> = Vec::new();
+    for form in span.forms(options, rows) {
+        let simpler = found.iter().map(|(solution, _)| solution);
+        let Some(solution) = solve(form, observations, options.channel_peak, options.tolerance, simpler)
+        else {
             continue;
         };
-        let (unknowns, worst, rms) = (found.unknowns(), found.worst, found.rms);
-        trials.push(Trial { form, unknowns, worst, rms });
-        let done = judged == Judged::Worst && is_acceptable(&found, rows, options.tolerance);
-        if best.as_ref().is_none_or(|best| judged.score(&found) < judged.score(best)) {
-            best = Some(found);
-        }
-        if done {
+        let (unknowns, worst, rms) = (solution.unknowns(), solution.worst, solution.rms);
+        let fault = span.fault(&solution);
+        trials.push(Trial { form, unknowns, worst, rms, fault });
+        let is_met = fault.is_none() && is_acceptable(&solution, rows, options.tolerance);
+        found.push((solution, fault.is_none()));
+        if judged == Judged::Worst && is_met {
             break;
         }
     }
-    let best = best.ok_or(FitError::NoSolution)?;
+    // Of materials that are none between the rows only where there is no other.
+    let better = |a: &(Solution, bool), b: &(Solution, bool)| {
+        b.1.cmp(&a.1).then(judged.score(&a.0).total_cmp(&judged.score(&b.0)))
+    };
+    let (best, _) = found.into_iter().min_by(better).ok_or(FitError::NoSolution)?;
     Ok((polish(best, observations, options.channel_peak, options.tolerance), trials))
 }
 

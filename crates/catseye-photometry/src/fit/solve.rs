@@ -58,25 +58,44 @@ pub(crate) fn miss(aim: Aim, log_ratio: f64) -> f64 {
     }
 }
 
-/// The best of several starts, the first of equals; `None` where none gives finite numbers.
-pub(crate) fn solve(
+/// The best of several starts and of what follows from the solutions of simpler forms, so that it is no worse than they
+/// are; the first of equals, `None` where none gives finite numbers.
+pub(crate) fn solve<'a>(
     form: Form,
     observations: &[Observation],
     channel_peak: f64,
     tolerance: f64,
+    simpler: impl Iterator<Item = &'a Solution>,
 ) -> Option<Solution> {
     let unknowns = form.unknowns();
-    let starts = if observations.len() > TABLE_ROWS { STARTS_OF_MANY } else { STARTS };
-    let found = (0..starts).into_par_iter().map(|start| {
-        let x = starting_point(form, &unknowns, observations, start);
-        descend(Problem::new(form, observations, channel_peak, &x), observations, channel_peak, tolerance)
+    let nested: Vec<Vec<f64>> = simpler.filter_map(|known| form.embed(&known.form, &known.x)).collect();
+    let count = if observations.len() > TABLE_ROWS { STARTS_OF_MANY } else { STARTS };
+    let fresh = (0..count).map(|start| starting_point(form, &unknowns, observations, start));
+    let starts: Vec<Vec<f64>> = nested.iter().map(|x| apart(&unknowns, x)).chain(fresh).collect();
+    let found = starts.par_iter().map(|x| {
+        descend(Problem::new(form, observations, channel_peak, x), observations, channel_peak, tolerance)
     });
     // In the order of the starts, so that the result does not depend on the number of cores.
     let found: Vec<Option<Solution>> = found.collect();
-    found
-        .into_iter()
-        .flatten()
-        .reduce(|best, next| if next.is_better_than(&best, tolerance) { next } else { best })
+    let nested = nested.into_iter().map(|x| solution(form, x, observations, channel_peak));
+    let better =
+        |best: Solution, next: Solution| if next.is_better_than(&best, tolerance) { next } else { best };
+    nested.chain(found).flatten().reduce(better)
+}
+
+/// Lobes of the same roughness, which a simpler form's solution leaves, drawn apart: from each other nothing parts them.
+fn apart(unknowns: &[Unknown], x: &[f64]) -> Vec<f64> {
+    const FACTOR: f64 = 1.5;
+    let mut moved = x.to_vec();
+    for (k, unknown) in unknowns.iter().enumerate() {
+        let Meaning::Roughness(lobe, axis) = unknown.meaning else { continue };
+        let twins =
+            (0..k).filter(|&j| matches!(unknowns[j].meaning, Meaning::Roughness(_, other) if other == axis));
+        if lobe > 0 && twins.clone().any(|j| x[j] == x[k]) {
+            moved[k] = (x[k] + FACTOR.ln()).min(unknown.bounds[1]);
+        }
+    }
+    moved
 }
 
 /// The best that rounds of least squares find from one start, the worst rows weighing more from round to round.
@@ -94,7 +113,7 @@ fn descend(
     let (mut least, mut idle) = (f64::INFINITY, 0);
     for _ in 0..ROUNDS {
         (problem, _) = solver.minimize(problem);
-        let Some(solution) = solution(problem.form(), &problem, observations, channel_peak) else { break };
+        let Some(solution) = solution(problem.form(), problem.x(), observations, channel_peak) else { break };
         let worst = solution.worst;
         let done = worst <= tolerance || observations.len() > TABLE_ROWS || has_limits;
         reweight(&mut problem.weights, observations, &solution);
@@ -121,7 +140,7 @@ pub(crate) fn polish(
     }
     let problem = Problem::new(found.form, observations, channel_peak, &found.x);
     let (problem, _) = LevenbergMarquardt::new().with_patience(POLISH_PATIENCE).minimize(problem);
-    match solution(found.form, &problem, observations, channel_peak) {
+    match solution(found.form, problem.x(), observations, channel_peak) {
         Some(polished) if polished.is_better_than(&found, tolerance) => polished,
         _ => found,
     }
@@ -129,11 +148,11 @@ pub(crate) fn polish(
 
 fn solution(
     form: Form,
-    problem: &Problem<'_>,
+    mut x: Vec<f64>,
     observations: &[Observation],
     channel_peak: f64,
 ) -> Option<Solution> {
-    let (unknowns, mut x) = (form.unknowns(), problem.x());
+    let unknowns = form.unknowns();
     // Limits and the energy are penalties in the problem, and laws here; of the two the energy's is the higher.
     let logs = log_ratios(&form.sheeting(&unknowns, &x), observations)?;
     let at_least = observations.iter().zip(&logs).filter(|(row, _)| row.aim == Aim::AtLeast);

@@ -6,6 +6,7 @@ use super::form::Meaning;
 use super::solve::Solution;
 use super::{FitOptions, Observation};
 use crate::fit::problem::Problem;
+use crate::significant;
 
 /// A posterior of more than this share of the prior's width says that the data know little.
 const UNDETERMINED: f64 = 0.5;
@@ -31,14 +32,12 @@ impl Estimate {
     /// What the reader should know of the number.
     #[must_use]
     pub(crate) fn warning(&self) -> Option<String> {
-        let (name, value) = (self.meaning.name(), self.value);
-        let [low, high] = self.interval;
+        let name = self.meaning.name();
+        let [low, value, high] = [self.interval[0], self.value, self.interval[1]].map(|x| significant(x, 3));
         if !self.determined {
-            return Some(format!(
-                "the data don't determine {name}: {value:.4} could be {low:.2} to {high:.2}"
-            ));
+            return Some(format!("the data don't determine {name}: {value} could be {low} to {high}"));
         }
-        self.at_bound.then(|| format!("{name} is {value:.4}, the end of the range that is looked in"))
+        self.at_bound.then(|| format!("{name} is {value}, the end of the range that is looked in"))
     }
 }
 
@@ -66,7 +65,7 @@ pub(super) fn estimates(
         let width = unknown.prior[1];
         let deviation = covariance.as_ref().map_or(width, |covariance| covariance[(k, k)].max(0.0).sqrt());
         let (x, [low, high]) = (solution.x[k], unknown.bounds);
-        let value = |x: f64| if unknown.meaning.is_log() { x.exp() } else { x };
+        let value = |x: f64| unknown.meaning.quantity(x);
         Estimate {
             meaning: unknown.meaning,
             value: value(x),

@@ -10,6 +10,7 @@ mod half_power;
 mod integral;
 mod openmaterial;
 mod quantity;
+mod sheeting;
 mod significant;
 mod standards;
 mod table;

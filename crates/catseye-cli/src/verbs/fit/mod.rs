@@ -31,7 +31,7 @@ const BRDF_RULE: usize = 7;
 
 /// Fit a material to coefficients of retro-reflection, of a CSV table or of a standard's class
 ///
-/// Finds a sum of retro-reflective lobes with entrance factors, and a diffuse base where a luminance factor
+/// Finds a sum of retro-reflective lobes with entrance laws, and a diffuse base where a luminance factor
 /// is given, whose albedo is at most 1. The table has the columns `observation_deg`, `entrance_deg` and
 /// `value`; `unit` (cd/lx/m2), `quantity` (R_A), `rotation_deg` (0), `standard`, `class`, `colour` and
 /// `source` are optional. `catseye standards list` names the classes that come with the program. Without a
@@ -53,7 +53,7 @@ pub(crate) struct Args {
     /// Fit only the rows whose standard, class and colour contain this text
     #[arg(long, value_name = "TEXT")]
     only: Option<String>,
-    /// Lobes: 1, 2, 3 or auto
+    /// Lobes: 1, 2, 3 or auto, which gives a table two at most
     #[arg(long, value_name = "N", default_value = "auto")]
     lobes: String,
     /// How the strength depends on the entrance angle
@@ -108,8 +108,8 @@ enum Entrance {
     None,
     /// As a power of the cosine
     Power,
-    /// As a power of the cosine that breaks off
-    Knee,
+    /// Flat at first, with one bend, then as a power of the tangent
+    Bend,
 }
 
 /// The models that sheeting is fitted with.
@@ -141,6 +141,9 @@ impl Args {
             file.write(page(&outcome)?.as_bytes())?;
         }
         job.messages().print(self.json, &outcome.json(), &outcome.text())?;
+        if let Some(fault) = outcome.fault() {
+            bail!("{}: not written: {fault}", job.subject.name);
+        }
         if !found.acceptable {
             bail!("{}: no acceptable fit; --tolerance would accept a worse one", job.subject.name);
         }
@@ -206,7 +209,7 @@ impl Args {
             Entrance::Auto => None,
             Entrance::None => Some(EntranceKind::Constant),
             Entrance::Power => Some(EntranceKind::Power),
-            Entrance::Knee => Some(EntranceKind::Knee),
+            Entrance::Bend => Some(EntranceKind::Bend),
         };
         let model = match self.model {
             FitModel::Reciprocal => Model::Reciprocal,

@@ -3,7 +3,7 @@
 use std::fmt::Write as _;
 
 use catseye_photometry::brdf::{Metrics, metrics};
-use catseye_photometry::fit::{Aim, EntranceKind, Fit, Form, Observation};
+use catseye_photometry::fit::{Aim, EntranceKind, Fault, Fit, Form, Observation};
 use catseye_photometry::half_power::half_power_angle;
 use catseye_photometry::significant;
 use serde_json::{Value, json};
@@ -82,16 +82,27 @@ impl Outcome<'_> {
         ))
     }
 
-    /// What it costs that the entrance factors see the direction to the viewer only.
-    pub(crate) fn view_form(&self) -> Option<String> {
-        let cost = self.fit.cost_of_view_form(self.observations);
+    /// What it costs that the entrance laws see the direction to the viewer only.
+    pub(crate) fn reciprocity(&self) -> Option<String> {
+        let cost = self.fit.reciprocity_cost(self.observations);
         (cost > 0.0).then(|| {
             format!(
-                "the entrance factors see the viewer's direction, as a node graph must; the reciprocal form \
-                 would differ by at most {}",
+                "the entrance laws see the viewer's direction, as a node graph must: with viewer and light \
+                 exchanged the values differ by at most {}",
                 percent(cost)
             )
         })
+    }
+
+    /// Where the material is not what sheeting can be, if anywhere.
+    pub(crate) fn fault(&self) -> Option<String> {
+        let Fault { observation_deg, entrance_deg: [from, to], r_a: [before, after] } = self.fit.fault?;
+        Some(format!(
+            "at observation {} deg R_A goes from {} at entrance {from} deg to {} at {to} deg, which no sheeting does",
+            short(observation_deg),
+            short(before),
+            short(after)
+        ))
     }
 
     /// The result for people.
@@ -113,7 +124,7 @@ impl Outcome<'_> {
         }
         self.rows(&mut text);
         let _ = write!(text, "\n{}", self.verdict());
-        let more = [self.accuracy(), self.why_not(), self.comparison(), self.view_form()];
+        let more = [self.accuracy(), self.why_not(), self.comparison(), self.reciprocity(), self.fault()];
         for line in more.into_iter().flatten().chain(self.warnings()) {
             let _ = write!(text, "\n{line}");
         }
@@ -178,7 +189,7 @@ impl Outcome<'_> {
             "worst": self.fit.worst, "rms": self.fit.rms,
             "numbers": self.fit.estimates.iter().map(estimate).collect::<Vec<_>>(),
             "rows": self.subject.rows.iter().zip(&self.fit.ratios).map(row).collect::<Vec<_>>(),
-            "view_form_cost": self.fit.cost_of_view_form(self.observations),
+            "reciprocity_cost": self.fit.reciprocity_cost(self.observations), "fault": self.fault(),
             "nrmse": self.metrics().map(|m| m.nrmse), "log_rmse": self.metrics().map(|m| m.log_rmse),
             "remarks": self.subject.remarks, "why_not": self.why_not(), "back_vector": beside,
             "warnings": self.fit.warnings,
@@ -192,11 +203,12 @@ pub(crate) fn describe(form: &Form) -> String {
     let entrance = match form.entrance {
         EntranceKind::Constant => ", the same at every entrance angle",
         EntranceKind::Power => ", a power of the entrance angle's cosine",
-        EntranceKind::Knee => ", a power of the entrance angle's cosine with a knee",
+        EntranceKind::Bend => ", a law of the entrance angle with a bend",
     };
     let own = match (form.entrance, form.shared || form.lobes == 1) {
         (EntranceKind::Constant, _) | (_, true) => "",
-        _ => " for each",
+        (EntranceKind::Power, _) => " for each",
+        (EntranceKind::Bend, _) => " and a power for each",
     };
     let base = if form.diffuse { ", a diffuse base" } else { "" };
     let coat = form.coat_ior.map_or(String::new(), |ior| format!(", a clear coat of index {ior}"));

@@ -27,7 +27,7 @@ pub(crate) fn page(outcome: &Outcome<'_>) -> anyhow::Result<String> {
     );
     let class = if fit.acceptable { "good" } else { "off" };
     let _ = writeln!(html, "<p class=\"{class}\">{}</p>", escaped(&outcome.verdict()));
-    let said = [outcome.accuracy(), outcome.why_not(), outcome.view_form()];
+    let said = [outcome.accuracy(), outcome.why_not(), outcome.reciprocity(), outcome.fault()];
     let remarks = outcome.subject.remarks.iter().chain(&fit.warnings).cloned();
     for line in said.into_iter().flatten().chain(remarks) {
         let _ = writeln!(html, "<p>{}</p>", escaped(&line));
@@ -137,10 +137,11 @@ fn values(html: &mut String, outcome: &Outcome<'_>) {
 }
 
 fn trials(html: &mut String, trials: &[Trial], prefix: &str) {
-    html.push_str("<table>\n<tr><th>model<th>free numbers<th>worst<th>rms</tr>\n");
-    for Trial { form, unknowns, worst, rms } in trials {
+    html.push_str("<table>\n<tr><th>model<th>free numbers<th>worst<th>rms<th></tr>\n");
+    for Trial { form, unknowns, worst, rms, fault } in trials {
         let (worst, rms, form) = (percent(*worst), percent(*rms), escaped(&describe(form)));
-        let _ = writeln!(html, "<tr><td>{prefix}{form}<td>{unknowns}<td>{worst}<td>{rms}</tr>");
+        let note = if fault.is_some() { "not physical over the entrance angle" } else { "" };
+        let _ = writeln!(html, "<tr><td>{prefix}{form}<td>{unknowns}<td>{worst}<td>{rms}<td>{note}</tr>");
     }
     html.push_str("</table>\n");
 }
