@@ -41,8 +41,8 @@ fn the_exported_library_is_the_repositorys() {
     }
     for path in files(&exported).iter().filter(|path| !path.ends_with("catseye.mjs")) {
         assert_eq!(
-            fs::read(exported.join(path)).unwrap(),
-            fs::read(ours.join(path)).unwrap(),
+            fs::read_to_string(exported.join(path)).unwrap(),
+            fs::read_to_string(ours.join(path)).unwrap(),
             "{}",
             path.display()
         );
