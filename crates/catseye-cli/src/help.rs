@@ -151,8 +151,8 @@ pub(crate) const MATERIALX_EXPORT: &str = MATERIALX;
 /// Example of `catseye materialx check`.
 pub(crate) const MATERIALX_CHECK: &str = "\
 Example:
-  $ echo '<materialx version=\"1.39\"/>' > empty.mtlx; catseye materialx check empty.mtlx
-  empty.mtlx: no problems";
+  $ catseye materialx check materials/sheeting.mtlx
+  materials/sheeting.mtlx: no problems";
 
 const TABLE: &str = "\
 Table format:

@@ -4,7 +4,7 @@ use std::{path::Path, sync::Arc};
 
 use crate::{
     compile::{pattern::PatternCompiler, surface::Builder},
-    error::{Error, listed, quoted},
+    error::{Error, Warning, listed, quoted},
     graph::{
         Graph, NodeRef,
         library::Library,
@@ -127,10 +127,10 @@ impl Document {
         look::looks(&self.root)
     }
 
-    /// What of the document has no meaning here, a line each: units of lengths and angles, for instance.
+    /// What of the document has no meaning here: units of lengths and angles, for instance.
     #[must_use]
-    pub fn warnings(&self) -> Vec<String> {
-        look::unit_warnings(&self.root)
+    pub fn warnings(&self) -> Vec<Warning> {
+        look::warnings(&self.root)
     }
 
     /// The material of this name, or the document's only one where no name is given.

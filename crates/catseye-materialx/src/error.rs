@@ -4,7 +4,7 @@ use core::{borrow::Borrow, fmt};
 use std::{io, sync::Arc};
 
 /// Where in a document something is wrong.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub struct Place {
     /// The file, as named by the caller.
     pub file: Arc<str>,
@@ -21,6 +21,21 @@ impl fmt::Display for Place {
         let Self { file, line, column, element } = self;
         write!(f, "{file}:{line}:{column}")?;
         if element.is_empty() { Ok(()) } else { write!(f, ": {element}") }
+    }
+}
+
+/// What of a document is ignored or approximated.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub struct Warning {
+    /// Where.
+    pub at: Place,
+    /// What, and the way out where there is one.
+    pub message: String,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{}: {}", self.at, self.message)
     }
 }
 

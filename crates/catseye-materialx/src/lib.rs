@@ -49,7 +49,8 @@
 //!   MaterialX's own libraries are on the [`SearchPath`]. In a definition's graph what has no weight is left out, and numbers
 //!   outside their range are brought into it, not refused.
 //!
-//! Only what a material refers to is checked, and the first problem ends the reading; [`check`](check()) looks at everything.
+//! Only what a material refers to is checked, and the first problem ends the reading; [`check`](check()) looks at everything, and
+//! has errors exactly where a material or look is refused.
 //!
 //! Hostile documents are refused in bounded time and memory: no document type declarations, at most 16 MiB, 32 levels
 //! of elements, 64 BSDF nodes or 200 pattern nodes in a chain, 65,536 closures, 1,048,576 pattern instructions, 256 included files, pictures of at most 16,384
@@ -71,10 +72,10 @@ mod surface;
 mod text;
 mod value;
 
-pub use check::{check, check_bytes};
+pub use check::{Finding, Report, Severity, check, check_bytes};
 pub use closure::{Closure, ScatterMode, Surface};
 pub use document::Document;
-pub use error::{Error, Place};
+pub use error::{Error, Place, Warning};
 pub use graph::library::Library;
 pub use graph::look::{Assignment, Look};
 pub use nodes::{bsdf_categories, pattern_categories};

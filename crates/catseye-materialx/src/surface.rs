@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::{
     closure::{Closure, Surface},
     compile::slot::{Slot, SurfaceFill},
+    error::Warning,
     program::{Program, ShadingPoint},
 };
 
@@ -18,8 +19,8 @@ pub struct Material {
     pub surface: Surface,
     /// What the surface is at each point; `None` where it is the same everywhere.
     pub patterns: Option<Patterns>,
-    /// What of the document is ignored or approximated, a line each.
-    pub warnings: Vec<String>,
+    /// What of the document is ignored or approximated.
+    pub warnings: Vec<Warning>,
 }
 
 impl Material {

@@ -78,6 +78,11 @@ impl<'a> Builder<'a> {
         if matches!(node.input(input).0.feed, Feed::Default) {
             return Ok(None);
         }
+        if matches!(node.input(input).0.feed, Feed::Value { .. })
+            && self.graph.is_in_document(node.node.scope)
+        {
+            self.warn(node, input, "MaterialX ignores a value here; connect a node, as in constant");
+        }
         if self.expr(node, input)?.register() == self.patterns.program.geometry(own).register() {
             return Ok(None);
         }

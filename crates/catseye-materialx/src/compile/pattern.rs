@@ -4,7 +4,7 @@ use std::{collections::HashMap, path::PathBuf, ptr};
 
 use crate::{
     color_space::{COLOR_SPACES, ColorSpace},
-    error::{Error, listed, quoted},
+    error::{Error, Place, Warning, listed, quoted},
     graph::{
         Feed, Graph, NodeRef, ROOT, ScopeId,
         bind::{Input, Node, is_built_in},
@@ -45,7 +45,7 @@ pub(crate) struct PatternCompiler<'a> {
     /// Instructions of the programs so far.
     compiled: usize,
     /// What is approximated, a line each.
-    pub(crate) warnings: Vec<String>,
+    pub(crate) warnings: Vec<Warning>,
 }
 
 impl<'a> PatternCompiler<'a> {
@@ -62,7 +62,8 @@ impl<'a> PatternCompiler<'a> {
         }
     }
 
-    pub(crate) fn warn(&mut self, warning: String) {
+    pub(crate) fn warn(&mut self, at: Place, message: &str) {
+        let warning = Warning { at, message: message.to_owned() };
         if !self.warnings.contains(&warning) {
             self.warnings.push(warning);
         }
@@ -226,7 +227,7 @@ impl<'a> PatternCompiler<'a> {
                     return Err(Error::OutOfRange { at: at(), message });
                 }
                 if port.name == "filtertype" && text == "cubic" {
-                    self.warn(format!("{}: cubic is approximated by linear", at()));
+                    self.warn(at(), "cubic is approximated by linear");
                 }
                 Ok(operand)
             }

@@ -112,7 +112,7 @@ impl<'a> Builder<'a> {
     }
 
     pub(super) fn warn(&mut self, node: &Node<'a>, input: &str, what: &str) {
-        self.patterns.warn(format!("{}: {what}", node.place_of(input)));
+        self.patterns.warn(node.place_of(input), what);
     }
 
     /// Begins with a BSDF or an EDF; [`Self::leave`] ends.

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use crate::{
-    error::{Error, quoted},
+    error::{Error, Warning, quoted},
     text::element::Element,
 };
 
@@ -120,34 +120,34 @@ fn paths(text: &str) -> Vec<String> {
 }
 
 /// A line for every unit that is named but not converted.
-pub(crate) fn unit_warnings(root: &Element) -> Vec<String> {
+pub(crate) fn warnings(root: &Element) -> Vec<Warning> {
     let mut warnings = Vec::new();
-    collect_units(root, &mut warnings);
+    collect_warnings(root, &mut warnings);
     warnings
 }
 
-fn collect_units(element: &Element, warnings: &mut Vec<String>) {
+fn collect_warnings(element: &Element, warnings: &mut Vec<Warning>) {
     /// What is said at most.
     const MOST: usize = 100;
     for child in element.children() {
-        if let Some(unit) = child.attribute("unit")
-            // Degrees and nanometres are what the nodes take anyway.
-            && !matches!(unit, "degree" | "nanometer")
+        if let Some(message) = warning(child)
             && warnings.len() < MOST
         {
-            warnings.push(format!("{}: the unit {} is ignored", element.place_of(child), quoted(unit)));
+            warnings.push(Warning { at: element.place_of(child), message });
         }
-        let is_text = matches!(child.attribute("type"), Some("string" | "filename"));
-        if child.tag() == "input"
-            && child.has("value")
-            && child.attribute("value").is_none()
-            && !is_text
-            && warnings.len() < MOST
-        {
-            warnings.push(format!("{}: value=\"\" is ignored: the default counts", element.place_of(child)));
-        }
-        collect_units(child, warnings);
+        collect_warnings(child, warnings);
     }
+}
+
+fn warning(element: &Element) -> Option<String> {
+    // Degrees and nanometres are what the nodes take anyway.
+    let unit = element.attribute("unit").filter(|unit| !matches!(*unit, "degree" | "nanometer"));
+    if let Some(unit) = unit {
+        return Some(format!("the unit {} is ignored", quoted(unit)));
+    }
+    let is_empty = element.tag() == "input" && element.has("value") && element.attribute("value").is_none();
+    let is_text = matches!(element.attribute("type"), Some("string" | "filename"));
+    (is_empty && !is_text).then(|| "value=\"\" is ignored: the default counts".to_owned())
 }
 
 #[cfg(test)]

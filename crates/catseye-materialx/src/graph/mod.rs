@@ -12,7 +12,7 @@ use std::{
 };
 
 use crate::{
-    error::{Error, quoted},
+    error::{Error, listed, quoted},
     graph::library::{Definition, Definitions, Library},
     text::element::Element,
 };
@@ -75,12 +75,12 @@ pub(crate) struct Graph<'a> {
 
 impl<'a> Graph<'a> {
     pub(crate) fn new(root: &'a Element, library: &'a Library) -> Result<Self, Error> {
-        let (graph, mut problems) = Self::with_problems(root, library);
+        let (graph, mut problems, _) = Self::with_problems(root, library);
         if problems.is_empty() { Ok(graph) } else { Err(problems.swap_remove(0)) }
     }
 
-    /// The graph, and the names that are taken twice.
-    pub(crate) fn with_problems(root: &'a Element, library: &'a Library) -> (Self, Vec<Error>) {
+    /// The graph, the names that are taken twice, and how many more of them there are.
+    pub(crate) fn with_problems(root: &'a Element, library: &'a Library) -> (Self, Vec<Error>, usize) {
         let document = Scope { element: root, interface: None, defined: false, depth: 0 };
         let mut graph = Self {
             root,
@@ -91,23 +91,28 @@ impl<'a> Graph<'a> {
             steps: Cell::new(0),
         };
         let mut problems = Vec::new();
-        graph.index(root, &mut problems);
-        (graph, problems)
+        let more = graph.index(root, &mut problems);
+        (graph, problems, more)
     }
 
-    /// The names of a scope and the nodegraphs in it; finding the lines of problems takes time, so not all are told.
-    fn index(&mut self, scope: &'a Element, problems: &mut Vec<Error>) {
+    /// The names of a scope and the nodegraphs in it; finding the lines of problems takes time, so that not all are told but
+    /// counted.
+    fn index(&mut self, scope: &'a Element, problems: &mut Vec<Error>) -> usize {
+        let mut more = 0;
         for child in scope.children() {
             if child.tag() == "nodegraph" {
-                self.index(child, problems);
+                more += self.index(child, problems);
             }
             let Some(name) = child.name() else { continue };
-            if let Some(first) = self.names.insert((ptr::from_ref(scope), name), child)
-                && problems.len() < MOST_PROBLEMS
-            {
-                problems.push(Error::DuplicateName { at: child.place(), first_line: first.place().line });
+            match self.names.insert((ptr::from_ref(scope), name), child) {
+                None => {}
+                Some(_) if problems.len() >= MOST_PROBLEMS => more += 1,
+                Some(first) => {
+                    problems.push(Error::DuplicateName { at: child.place(), first_line: first.place().line });
+                }
             }
         }
+        more
     }
 
     pub(crate) fn definitions(&self) -> &Definitions<'a> {
@@ -248,6 +253,9 @@ impl<'a> Graph<'a> {
         let mut scopes = self.scopes.borrow_mut();
         let depth = scopes[interface.scope.0].depth + 1;
         let limit = |what, limit| Err(Error::Limit { at: interface.element.place(), what, limit });
+        if defined {
+            refuse_recursion(&scopes, element, interface)?;
+        }
         if depth > MAX_SCOPE_DEPTH {
             return limit("nodegraphs inside nodegraphs", MAX_SCOPE_DEPTH);
         }
@@ -327,4 +335,21 @@ fn target_name(input: &Element) -> String {
         input.attribute(attribute).map(|value| format!("{attribute}={}", quoted(value)))
     });
     parts.collect::<Vec<_>>().join(" ")
+}
+
+/// Refuses a definition whose graph uses the node that it defines, itself or through others.
+fn refuse_recursion(scopes: &[Scope<'_>], graph: &Element, node: NodeRef<'_>) -> Result<(), Error> {
+    let mut through = vec![quoted(node.element.tag())];
+    let mut scope = scopes[node.scope.0];
+    while let Some(caller) = scope.interface {
+        if scope.defined && ptr::eq(scope.element, graph) {
+            through.reverse();
+            return Err(Error::Cycle { at: node.element.place(), cycle: listed(through) });
+        }
+        if scope.defined {
+            through.push(quoted(caller.element.tag()));
+        }
+        scope = scopes[caller.scope.0];
+    }
+    Ok(())
 }

@@ -51,7 +51,7 @@ pub(crate) enum Accepts {
     NotNegative,
     /// `[0, inf]`: what a computed roughness is brought to.
     Roughness,
-    /// A direction: finite and not zero.
+    /// A direction: finite; zero is ignored.
     Direction,
     /// One of these words.
     Words(&'static [&'static str]),
@@ -119,10 +119,7 @@ impl Accepts {
             Self::Unit => (all(|x| (0.0..=1.0).contains(&x)), "outside [0, 1]".to_owned()),
             Self::Positive => (all(|x| x > 0.0 && x.is_finite()), "outside (0, inf)".to_owned()),
             Self::NotNegative => (all(|x| x >= 0.0 && x.is_finite()), "outside [0, inf)".to_owned()),
-            Self::Direction => (
-                all(f32::is_finite) && value.components().iter().any(|&x| x != 0.0),
-                "not a direction; write one like 1, 0, 0".to_owned(),
-            ),
+            Self::Direction => (all(f32::is_finite), "not a direction; write one like 1, 0, 0".to_owned()),
             Self::Words(words) => {
                 let known = matches!(value, Value::String(word) if words.contains(&word));
                 (known, format!("not one of {}", words.join(", ")))

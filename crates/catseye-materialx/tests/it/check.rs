@@ -1,8 +1,13 @@
 //! Promise: `check` names every problem of a document in one go, and nothing that is none.
 
-use catseye_materialx::{Document, Library, check, check_bytes};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
-use crate::support::document;
+use catseye_materialx::{Document, Error, Library, Report, check, check_bytes};
+
+use crate::support::{document, single};
 
 const FAULTY: &str = r#"<materialx version="1.39">
 <hair_bsdf name="hair" type="BSDF" />
@@ -33,9 +38,10 @@ const FAULTY: &str = r#"<materialx version="1.39">
 
 #[test]
 fn all_problems_at_once() {
-    let problems = check_bytes(FAULTY.as_bytes(), "f.mtlx", &Library::default());
-    let lines: Vec<String> = problems.iter().map(ToString::to_string).collect();
+    let report = check_bytes(FAULTY.as_bytes(), "f.mtlx", &Library::default());
+    let lines: Vec<String> = report.findings.iter().map(ToString::to_string).collect();
     let expected = [
+        ("f.mtlx: ", "has no <surfacematerial>"),
         ("f.mtlx:2:1: ", "unknown node category"),
         ("f.mtlx:4:3: ", "no such input"),
         ("f.mtlx:5:3: ", "roughness is 2, outside [0, 1]"),
@@ -52,8 +58,8 @@ fn all_problems_at_once() {
         ("f.mtlx:20:45: ", "roughness_u is -3, outside [0, inf]"),
         ("f.mtlx:21:53: ", "tint[1] is 2, outside [0, 1]"),
         ("f.mtlx:22:21: ", "roughness is 3, outside [0, 1]"),
-        ("f.mtlx:22:21: ", "\"coat\" is 3, outside [0] to [1]"),
-        ("f.mtlx:25:31: ", "\"x\" is 5, outside [...] to [4]"),
+        ("f.mtlx:22:21: warning: ", "\"coat\" is 3, outside the usual [0] to [1]"),
+        ("f.mtlx:25:31: warning: ", "\"x\" is 5, outside the usual [...] to [4]"),
     ];
     for (place, message) in expected {
         let found = lines.iter().any(|line| line.starts_with(place) && line.contains(message));
@@ -72,13 +78,13 @@ fn graphs_of_the_documents_own_definitions_are_checked_where_they_are_used() {
 <mine name="a" type="surfaceshader" />
 <mine name="b" type="surfaceshader" />
 </materialx>"#;
-    let problems = check_bytes(text.as_bytes(), "f.mtlx", &Library::default());
-    let lines: Vec<String> = problems.iter().map(ToString::to_string).collect();
-    assert_eq!(lines.len(), 1, "{}", lines.join("\n"));
+    let report = check_bytes(text.as_bytes(), "f.mtlx", &Library::default());
+    let lines: Vec<String> = report.findings.iter().map(ToString::to_string).collect();
+    assert_eq!(lines.len(), 2, "{}", lines.join("\n"));
     assert!(
-        lines[0].starts_with("f.mtlx:3:45: ") && lines[0].contains("unknown node category"),
+        lines[1].starts_with("f.mtlx:3:45: ") && lines[1].contains("unknown node category"),
         "{}",
-        lines[0]
+        lines[1]
     );
 }
 
@@ -88,8 +94,8 @@ fn our_own_materials_are_without_problems() {
     for entry in std::fs::read_dir(folder).unwrap() {
         let path = entry.unwrap().path();
         if path.extension().is_some_and(|extension| extension == "mtlx") {
-            let problems = check(&path, &Library::default());
-            assert!(problems.is_empty(), "{problems:?}");
+            let report = check(&path, &Library::default());
+            assert!(report.findings.is_empty(), "{report:?}");
         }
     }
 }
@@ -141,10 +147,159 @@ fn unknown_words_are_refused_by_check_and_by_reading() {
             ),
         };
         let text = document(&nodes);
-        let problems = check_bytes(text.as_bytes(), "m.mtlx", &Library::default());
+        let report = check_bytes(text.as_bytes(), "m.mtlx", &Library::default());
         let read = Document::parse(&text, "m.mtlx").unwrap().material(None).expect_err(&text);
-        let found: Vec<String> = problems.iter().map(ToString::to_string).collect();
+        let found: Vec<String> = report.findings.iter().map(ToString::to_string).collect();
         assert_eq!(found, [read.to_string()], "{category}");
         assert!(found[0].contains(&format!("input \"{name}\": {name} is ")), "{}", found[0]);
     }
+}
+
+/// Whether everything that `render` may be asked for is read.
+fn is_read(document: Result<Document, Error>) -> Result<(), String> {
+    let text = |error: Error| error.to_string();
+    let document = document.map_err(text)?;
+    document.looks().map_err(text)?;
+    for name in document.material_names() {
+        document.material(Some(&name)).map_err(text)?;
+    }
+    document.materials().map(|_| ()).map_err(text)
+}
+
+fn assert_agree(name: &str, report: &Report, read: &Result<(), String>) {
+    assert_eq!(report.has_errors(), read.is_err(), "{name}: {read:?}, but\n{report:#?}");
+    if let Err(message) = read {
+        let told = report.findings.iter().any(|finding| finding.to_string() == *message);
+        // A cycle is told from where it is first seen.
+        assert!(told || message.contains("feeds itself"), "{name}: {message} is not among\n{report:#?}");
+    }
+}
+
+fn documents(folder: &Path, found: &mut Vec<PathBuf>) {
+    for entry in std::fs::read_dir(folder).unwrap_or_else(|error| panic!("{error}")).flatten() {
+        let path = entry.path();
+        if path.is_dir() && path.file_name().is_some_and(|name| name != "target" && name != ".git") {
+            documents(&path, found);
+        } else if path.extension().is_some_and(|extension| extension == "mtlx") {
+            found.push(path);
+        }
+    }
+}
+
+#[test]
+fn check_and_reading_give_the_same_verdict_on_every_document() {
+    let mut found = Vec::new();
+    documents(Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/../..")), &mut found);
+    assert!(found.len() > 20);
+    let library = Arc::default();
+    for path in found {
+        let report = check(&path, &library);
+        assert_agree(&path.to_string_lossy(), &report, &is_read(Document::load_with(&path, &library)));
+    }
+}
+
+/// What `check` missed and `render` refused, or the other way round.
+#[test]
+fn check_and_reading_give_the_same_verdict_where_they_did_not() {
+    let add = |i: usize, last: usize| {
+        let input = |name| format!("<input name=\"{name}\" type=\"BSDF\" nodename=\"a{}\" />", i + 1);
+        let inputs = if i < last { input("in1") + &input("in2") } else { String::new() };
+        format!("<add name=\"a{i}\" type=\"BSDF\">{inputs}</add>")
+    };
+    let bomb: String = (0..60).map(|i| add(i, 59)).collect();
+    let top = "<add name=\"bsdf\" type=\"BSDF\"><input name=\"in1\" type=\"BSDF\" nodename=\"a0\" /></add>";
+    let sine = |i| {
+        let (name, ty) = (format!("s{i}"), "type=\"float\"");
+        format!("<sin name=\"{name}\" {ty}><input name=\"in\" {ty} nodename=\"s{}\" /></sin>", i + 1)
+    };
+    let chain: String = (0..300).map(sine).collect();
+    let rough = "<oren_nayar_diffuse_bsdf name=\"bsdf\" type=\"BSDF\">\
+                 <input name=\"roughness\" type=\"float\" nodename=\"s0\" /></oren_nayar_diffuse_bsdf>";
+    let own = |inner: &str| {
+        format!(
+            "<nodedef name=\"ND_n\" node=\"n\"><output name=\"out\" type=\"BSDF\" /></nodedef>\
+             <nodegraph name=\"NG_n\" nodedef=\"ND_n\"><{inner} name=\"i\" type=\"BSDF\" />\
+             <output name=\"out\" type=\"BSDF\" nodename=\"i\" /></nodegraph>\
+             <nodedef name=\"ND_o\" node=\"o\"><output name=\"out\" type=\"BSDF\" /></nodedef>\
+             <nodegraph name=\"NG_o\" nodedef=\"ND_o\"><n name=\"i\" type=\"BSDF\" />\
+             <output name=\"out\" type=\"BSDF\" nodename=\"i\" /></nodegraph><n name=\"bsdf\" type=\"BSDF\" />"
+        )
+    };
+    let cases = [
+        ("", "<materialx version=\"1.39\" />".to_owned(), "has no <surfacematerial>"),
+        (
+            "",
+            "<materialx version=\"1.39\"><surfacematerial name=\"m\" type=\"material\" /></materialx>"
+                .to_owned(),
+            "has no surfaceshader",
+        ),
+        ("", document(&(bomb + top)), "more than 65536 closures"),
+        (
+            "",
+            document(&format!("{rough}{chain}<constant name=\"s300\" type=\"float\" />")),
+            "more than 200 pattern nodes in a chain",
+        ),
+        ("", document(&own("n")), "n \"i\": feeds itself through \"n\""),
+        ("", document(&own("o")), "n \"i\": feeds itself through \"o\", \"n\""),
+        (
+            "warning",
+            document("<add name=\"bsdf\" type=\"BSDF\" /><unheard_of name=\"u\" type=\"float\" />"),
+            "unknown node",
+        ),
+        (
+            "warning",
+            single(
+                "retro_reflective_bsdf",
+                "<input name=\"tangent_u\" type=\"vector3\" value=\"0, 1, 0\" />",
+            ),
+            "MaterialX ignores a value here; connect a node, as in constant",
+        ),
+        (
+            "warning",
+            single("dielectric_bsdf", "<input name=\"normal\" type=\"vector3\" value=\"0, 0, 0\" />"),
+            "MaterialX ignores a value here",
+        ),
+        (
+            "warning",
+            document(
+                "<retro_reflective_bsdf name=\"r\" type=\"BSDF\" /><layer name=\"bsdf\" type=\"BSDF\">\
+                 <input name=\"top\" type=\"BSDF\" nodename=\"r\" /></layer>",
+            ),
+            "use mix or add",
+        ),
+    ];
+    for (kind, text, expected) in cases {
+        let report = check_bytes(text.as_bytes(), "m.mtlx", &Library::default());
+        assert_agree(expected, &report, &is_read(Document::parse(&text, "m.mtlx")));
+        let lines: Vec<String> = report.findings.iter().map(ToString::to_string).collect();
+        let told = lines.iter().any(|line| line.contains(expected) && line.contains(kind));
+        assert!(told && report.has_errors() == kind.is_empty(), "{expected}: {lines:?}");
+    }
+}
+
+#[test]
+fn pictures_that_are_cut_off_are_found() {
+    let folder = tempfile::tempdir().unwrap();
+    let pictures = Path::new(concat!(env!("CARGO_MANIFEST_DIR"), "/tests/pictures"));
+    for name in ["rgb8.png", "rgb.jpg", "rgba_float.exr", "rgb8_lzw.tif"] {
+        let bytes = std::fs::read(pictures.join(name)).unwrap();
+        std::fs::write(folder.path().join(name), &bytes[..bytes.len() / 2]).unwrap();
+        let image = format!(
+            "<image name=\"p\" type=\"color3\"><input name=\"file\" type=\"filename\" value=\"{name}\" /></image>"
+        );
+        let path = folder.path().join("m.mtlx");
+        let lobe = "<oren_nayar_diffuse_bsdf name=\"bsdf\" type=\"BSDF\">\
+                    <input name=\"color\" type=\"color3\" nodename=\"p\" /></oren_nayar_diffuse_bsdf>";
+        std::fs::write(&path, document(&format!("{lobe}{image}"))).unwrap();
+        let report = check(&path, &Library::default());
+        assert!(report.has_errors(), "{name}");
+        assert_agree(name, &report, &is_read(Document::load(&path)));
+    }
+}
+
+#[test]
+fn what_is_not_listed_is_counted() {
+    let twice: String = (0..1000).map(|_| "<add name=\"bsdf\" type=\"BSDF\" />").collect();
+    let report = check_bytes(document(&twice).as_bytes(), "m.mtlx", &Library::default());
+    assert_eq!((report.findings.len(), report.more), (50, 949));
 }

@@ -1,95 +1,52 @@
-//! Everything that is wrong with a document, in one go.
+//! A look at every node of a document, also at those that no material uses.
 
 use std::{
     collections::{HashMap, HashSet},
-    path::{Path, PathBuf},
+    path::PathBuf,
     ptr,
-    sync::Arc,
 };
 
 use crate::{
     compile::pattern::find_picture,
-    error::{Error, Place, listed, quoted},
+    error::{Error, Warning, listed, quoted},
     graph::{
-        Feed, Graph, NodeRef, ROOT, ScopeId,
+        Feed, Graph, MOST_PROBLEMS, NodeRef, ROOT, ScopeId,
         bind::{Node, is_built_in},
         input::{check_connection, constant, output_feed, unknown_category},
         library::{Definition, Library},
     },
     nodes::of_category,
     picture::{Picture, Room},
-    text::{
-        element::Element,
-        files::SearchPath,
-        include::Includer,
-        root::{parse_bytes, read_root},
-    },
-    value::Type,
+    text::element::Element,
+    value::{Type, Value},
 };
 
-/// Most problems that are reported for a document.
-const MAX_PROBLEMS: usize = 200;
+/// Problems after which nothing more is looked at.
+const MAX_PROBLEMS: usize = 400;
 
-/// What is wrong with a file, in the order of its lines; nothing if every node in it can be read.
-///
-/// Unlike [`Document::material`](crate::Document::material) this looks at every node, also at those that no material
-/// uses, and goes on after the first problem.
-#[must_use]
-pub fn check(path: impl AsRef<Path>, library: &Library) -> Vec<Error> {
-    let path = path.as_ref();
-    match read_root(path, &path.to_string_lossy()) {
-        Err(problem) => vec![problem],
-        Ok(root) => check_root(root, path.canonicalize().ok(), library.search_path(), library),
-    }
+/// What a walk through a document finds.
+pub(super) struct Walk {
+    pub(super) problems: Vec<Error>,
+    pub(super) warnings: Vec<Warning>,
+    /// Problems, at least, that are not among them.
+    pub(super) more: usize,
 }
 
-/// As [`check`], for a document's bytes; `name` stands for the file in messages.
-#[must_use]
-pub fn check_bytes(bytes: &[u8], name: &str, library: &Library) -> Vec<Error> {
-    match parse_bytes(bytes, name, None) {
-        Err(problem) => vec![problem],
-        Ok(root) => check_root(root, None, library.search_path(), library),
-    }
-}
-
-fn check_root(
-    root: Element,
-    path: Option<PathBuf>,
-    search_path: &SearchPath,
-    library: &Library,
-) -> Vec<Error> {
-    let mut includer = Includer::new(search_path, path).lenient();
-    let own_file = Arc::clone(root.source().name());
-    let root = match includer.expand(root) {
-        Ok(root) => root,
-        Err(problem) => return vec![problem],
-    };
-    let mut problems = includer.problems();
-    let (graph, duplicates) = Graph::with_problems(&root, library);
-    problems.extend(duplicates);
+/// Checks every node of a document by itself, its connections, and where they lead in circles.
+pub(super) fn walk<'a>(graph: &Graph<'a>, root: &'a Element, library: &'a Library) -> Walk {
     let mut checker = Checker {
-        graph: &graph,
+        graph,
         library,
-        problems,
+        found: Walk { problems: Vec::new(), warnings: Vec::new(), more: 0 },
         edges: HashMap::new(),
         seen: HashSet::new(),
         entered: HashSet::new(),
     };
-    checker.scope(&root, ROOT, 0);
+    checker.scope(root, ROOT, 0);
     checker.cycles();
-    let mut problems = checker.problems;
-    problems.sort_by_cached_key(|problem| order(problem, &own_file));
-    problems.dedup_by_key(|problem| problem.to_string());
-    problems.truncate(MAX_PROBLEMS);
-    problems
-}
-
-/// The document's own problems first, by line; then those of the files that it includes.
-fn order(problem: &Error, own_file: &Arc<str>) -> (bool, Option<Arc<str>>, u32, u32) {
-    match problem.place() {
-        None => (false, None, 0, 0),
-        Some(Place { file, line, column, .. }) => (file != own_file, Some(Arc::clone(file)), *line, *column),
-    }
+    let is_full = checker.is_full();
+    checker.found.more += usize::from(is_full);
+    checker.found
 }
 
 /// A node, for the search for cycles.
@@ -98,7 +55,7 @@ type Key = (ScopeId, *const Element);
 struct Checker<'a, 'g> {
     graph: &'g Graph<'a>,
     library: &'a Library,
-    problems: Vec<Error>,
+    found: Walk,
     /// What each node is connected to.
     edges: HashMap<Key, (NodeRef<'a>, Vec<NodeRef<'a>>)>,
     /// Pictures that were looked at.
@@ -109,12 +66,12 @@ struct Checker<'a, 'g> {
 
 impl<'a> Checker<'a, '_> {
     fn is_full(&self) -> bool {
-        self.problems.len() >= 2 * MAX_PROBLEMS
+        self.found.problems.len() >= MAX_PROBLEMS
     }
 
     fn report(&mut self, result: Result<(), Error>) {
         if let Err(problem) = result {
-            self.problems.push(problem);
+            self.found.problems.push(problem);
         }
     }
 
@@ -130,11 +87,10 @@ impl<'a> Checker<'a, '_> {
                 "output" => self.output(node),
                 // The nodegraph's own, which may be connected to what is around it; checked there.
                 "input" => {}
-                "look" => self.look(child),
                 "nodedef" => self.nodedef(child),
                 "implementation" | "typedef" | "targetdef" | "unitdef" | "unittypedef" | "geompropdef"
-                | "geominfo" | "lookgroup" | "collection" | "propertyset" | "variantset" | "backdrop"
-                | "attributedef" | "xi:include" => {}
+                | "geominfo" | "look" | "lookgroup" | "collection" | "propertyset" | "variantset"
+                | "backdrop" | "attributedef" | "xi:include" => {}
                 _ => self.node(node),
             }
         }
@@ -157,7 +113,7 @@ impl<'a> Checker<'a, '_> {
         }
         match self.graph.enter(graph, node, false) {
             Ok(inner) => self.scope(graph, inner, depth + 1),
-            Err(problem) => self.problems.push(problem),
+            Err(problem) => self.found.problems.push(problem),
         }
     }
 
@@ -218,7 +174,12 @@ impl<'a> Checker<'a, '_> {
             || !of_category(node.element.tag()).is_empty()
                 && self.graph.definitions().find(node.element).is_none()
         {
-            let bound = Node::bind_all(self.graph, node, &mut self.problems);
+            let before = self.found.problems.len();
+            let bound = Node::bind_all(self.graph, node, &mut self.found.problems);
+            self.found.more += usize::from(self.found.problems.len() >= before + MOST_PROBLEMS);
+            if let Some(bound) = &bound {
+                self.warn_of_mdl(bound);
+            }
             for input in bound.into_iter().flat_map(|bound| bound.inputs) {
                 feeds.push(input.feed);
                 if input.ty == Type::Filename {
@@ -227,7 +188,7 @@ impl<'a> Checker<'a, '_> {
                 }
             }
         } else if node.element.attribute("type").is_none() {
-            self.problems.push(Error::MissingAttribute { at: node.element.place(), attribute: "type" });
+            self.found.problems.push(Error::MissingAttribute { at: node.element.place(), attribute: "type" });
         } else {
             feeds = self.defined(node);
         }
@@ -238,15 +199,26 @@ impl<'a> Checker<'a, '_> {
         self.edges.insert((node.scope, ptr::from_ref(node.element)), (node, targets.collect()));
     }
 
+    /// MaterialX's MDL leaves out what is under a lobe that can't be layered there.
+    fn warn_of_mdl(&mut self, node: &Node<'a>) {
+        let is_lobe = |top: NodeRef<'_>| top.element.tag() == "retro_reflective_bsdf";
+        if node.def.category == "layer" && node.connected("top").is_some_and(is_lobe) {
+            let message = "MDL, as MaterialX writes it, leaves out what is below this lobe; use mix or add if it is to be \
+                           rendered from MDL";
+            let at = node.place_of("top");
+            self.found.warnings.push(Warning { at, message: message.to_owned() });
+        }
+    }
+
     /// A node that a library or the document defines.
     fn defined(&mut self, node: NodeRef<'a>) -> Vec<Feed<'a>> {
         let definition = self.graph.definitions().find(node.element);
         let Some(definition) = definition else {
-            self.problems.push(unknown_category(self.graph, node.element));
+            self.found.problems.push(unknown_category(self.graph, node.element));
             return Vec::new();
         };
         if definition.graph.is_none() {
-            self.problems.push(Error::NoGraph { at: node.element.place() });
+            self.found.problems.push(Error::NoGraph { at: node.element.place() });
         }
         let mut feeds = Vec::new();
         for input in node.element.children_of_kind("input") {
@@ -255,7 +227,7 @@ impl<'a> Checker<'a, '_> {
             }
             match self.defined_input(node, definition, input) {
                 Ok(feed) => feeds.push(feed),
-                Err(problem) => self.problems.push(problem),
+                Err(problem) => self.found.problems.push(problem),
             }
         }
         if let Some(graph) = definition.graph {
@@ -272,7 +244,7 @@ impl<'a> Checker<'a, '_> {
         }
         match self.graph.enter(graph, node, true) {
             Ok(inner) => self.scope(graph, inner, 0),
-            Err(problem) => self.problems.push(problem),
+            Err(problem) => self.found.problems.push(problem),
         }
     }
 
@@ -288,41 +260,44 @@ impl<'a> Checker<'a, '_> {
         self.value(feed, ty)?;
         let defined = input.name().and_then(|name| definition.input(name));
         if let (Some(defined), Feed::Value { owner, input }) = (defined, feed) {
-            check_bounds(owner, input, defined, ty)?;
+            self.warn_of_bounds(owner, input, defined, ty)?;
         }
         Ok(feed)
     }
 
-    /// A definition's defaults must lie within its own bounds.
+    /// The values of a definition's own inputs.
     fn nodedef(&mut self, nodedef: &'a Element) {
         for input in nodedef.children_of_kind("input") {
             let ty = input.attribute("type").and_then(Type::parse);
             if let (Some(ty), Some(_)) = (ty, input.attribute("value")) {
-                let result = check_bounds(nodedef, input, input, ty);
+                let result = self.warn_of_bounds(nodedef, input, input, ty);
                 self.report(result);
             }
         }
     }
 
-    fn look(&mut self, look: &'a Element) {
-        let materials: HashSet<&str> =
-            self.graph.materials().filter_map(|node| node.element.name()).collect();
-        let mut problems = Vec::new();
-        for assign in look.children_of_kind("materialassign") {
-            if problems.len() >= MAX_PROBLEMS {
-                break;
-            }
-            match assign.attribute("material") {
-                None => problems
-                    .push(Error::MissingAttribute { at: look.place_of(assign), attribute: "material" }),
-                Some(name) if !materials.contains(name) => problems.push(Error::Dangling {
-                    at: look.place_of(assign),
-                    target: format!("material={}", quoted(name)),
-                }),
-                Some(_) => {}
-            }
+    /// `uimin` and `uimax` are where an editor's slider ends, no limits.
+    fn warn_of_bounds(
+        &mut self,
+        owner: &Element,
+        input: &'a Element,
+        defined: &Element,
+        ty: Type,
+    ) -> Result<(), Error> {
+        let value = constant(owner, input, ty)?;
+        let bound = |name| Value::parse(ty, defined.attribute(name)?);
+        let (low, high) = (bound("uimin"), bound("uimax"));
+        let at = |bound: &Option<Value<'_>>, i: usize| bound.and_then(|b| b.components().get(i).copied());
+        let is_outside = |(i, x): (usize, &f32)| {
+            at(&low, i).is_some_and(|low| *x < low) || at(&high, i).is_some_and(|high| *x > high)
+        };
+        if value.components().iter().enumerate().any(is_outside) {
+            let [low, high] = [low, high].map(|b| b.map_or_else(|| "...".to_owned(), |b| b.to_string()));
+            let name = quoted(defined.name().unwrap_or_default());
+            let message = format!("{name} is {value}, outside the usual [{low}] to [{high}]");
+            self.found.warnings.push(Warning { at: owner.place_of(input), message });
         }
-        self.problems.extend(problems);
+        Ok(())
     }
 
     /// Reports every cycle once: a depth-first search without recursion.
@@ -347,12 +322,14 @@ impl<'a> Checker<'a, '_> {
                 };
                 *next += 1;
                 if on_path.contains(&key(target)) {
-                    if self.problems.len() >= 2 * MAX_PROBLEMS {
+                    if self.found.problems.len() >= MAX_PROBLEMS {
                         return;
                     }
                     let start = path.iter().position(|(node, _)| key(*node) == key(target)).unwrap_or(0);
                     let names = path[start..].iter().map(|(node, _)| node.element.quoted_name());
-                    self.problems.push(Error::Cycle { at: target.element.place(), cycle: listed(names) });
+                    self.found
+                        .problems
+                        .push(Error::Cycle { at: target.element.place(), cycle: listed(names) });
                 } else if !done.contains(&key(target)) {
                     on_path.insert(key(target));
                     path.push((target, 0));
@@ -360,27 +337,4 @@ impl<'a> Checker<'a, '_> {
             }
         }
     }
-}
-
-/// Checks a value against the hard limits (`uimin`, `uimax`) of a definition's input.
-fn check_bounds(owner: &Element, input: &Element, defined: &Element, ty: Type) -> Result<(), Error> {
-    let value = constant(owner, input, ty)?;
-    let bound = |name| {
-        let text = defined.attribute(name)?;
-        crate::value::Value::parse(ty, text)
-    };
-    let (low, high) = (bound("uimin"), bound("uimax"));
-    for (i, x) in value.components().iter().enumerate() {
-        let limit =
-            |bound: &Option<crate::value::Value<'_>>| bound.and_then(|b| b.components().get(i).copied());
-        let below = limit(&low).is_some_and(|low| *x < low);
-        let above = limit(&high).is_some_and(|high| *x > high);
-        if below || above {
-            let range = [low, high].map(|b| b.map_or_else(|| "...".to_owned(), |b| b.to_string()));
-            let name = defined.name().unwrap_or_default();
-            let message = format!("{} is {value}, outside [{}] to [{}]", quoted(name), range[0], range[1]);
-            return Err(Error::OutOfRange { at: owner.place_of(input), message });
-        }
-    }
-    Ok(())
 }
