@@ -1,23 +1,36 @@
-//! The price of the lobes in units of one scalar `f32::powf` call, measured in the same run: what a renderer pays for
-//! exactness, and whether the batch interface is worth calling.
+//! The lobes' time in units of one scalar `f32::powf` call: the table of `docs/performance.md`.
 //!
-//! `cargo bench -p catseye` times every case with Criterion, then counts its instructions under Valgrind where that is
-//! installed, and prints one table. Valgrind has no AVX-512, so the batch's counts are those of its AVX2 form.
+//! `cargo bench -p catseye [-- WORDS]` runs the cases whose names contain every word. In each round `powf` is timed over
+//! the same rows right before the case, and the table has the medians of the rounds' ratios: what else the machine does
+//! slows both alike. Where Valgrind is installed it counts instructions as well; it has no AVX-512, so that the batch's
+//! counts are those of its AVX2 form.
 
 use std::env;
 use std::hint::black_box;
-use std::path::{Path, PathBuf};
+use std::ops::Range;
 use std::process::Command;
-use std::time::Duration;
+use std::time::Instant;
 
 use catseye::batch::{self, SampleSlices};
 use catseye::{Component, Lobe as _, Params, Reciprocal, Vec3};
-use criterion::Criterion;
 
-/// Elements per iteration: all arrays together fit the first-level cache twice over at most.
-const N: usize = 1024;
+/// Rows that come round again, so that the branch predictor learns them. Not a multiple of 1024: columns that lie a
+/// multiple of 4096 bytes apart make loads wait for stores.
+const REPEATED: usize = 1040;
 
-/// Set in the child processes whose instructions are counted: the case and the number of iterations.
+/// Rows that are as good as new each time: too many for the branch predictor.
+const FRESH: usize = 262_144;
+
+/// Rows of a short batch.
+const SHORT: usize = 256;
+
+/// Rows of one timing: enough to be read off the clock, too few to be interrupted often.
+const TIMED: usize = 16 * REPEATED;
+
+/// Rounds of a case.
+const ROUNDS: usize = 301;
+
+/// Set in the child processes whose instructions are counted: the number of passes and the case.
 const COUNT: &str = "CATSEYE_BENCH_COUNT";
 
 /// Directions, uniform numbers and results, as arrays of vectors and as structures of arrays.
@@ -26,10 +39,12 @@ struct Data {
     columns: [Vec<f32>; 9],
     out: [Vec<f32>; 7],
     components: Vec<Component>,
+    /// The rows that a pass over single directions takes.
+    window: Range<usize>,
 }
 
 impl Data {
-    fn new() -> Self {
+    fn new(n: usize) -> Self {
         let mut state = 1_u64;
         let mut uniform = || {
             state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
@@ -37,7 +52,7 @@ impl Data {
         };
         let mut columns: [Vec<f32>; 9] = Default::default();
         let mut pairs = Vec::new();
-        for _ in 0..N {
+        for _ in 0..n {
             let [wo, wi] = [(); 2].map(|()| {
                 let z = 1.0 - uniform();
                 let (sin, cos) = (std::f32::consts::TAU * uniform()).sin_cos();
@@ -49,11 +64,33 @@ impl Data {
             columns.iter_mut().zip(row).for_each(|(column, x)| column.push(x));
             pairs.push((wo, wi, u));
         }
-        Self { pairs, columns, out: [(); 7].map(|()| vec![0.0; N]), components: vec![Component::Single; N] }
+        let (out, components) = ([(); 7].map(|()| vec![0.0; n]), vec![Component::Single; n]);
+        Self { pairs, columns, out, components, window: 0..n.min(TIMED) }
+    }
+
+    /// Moves the window on to rows that were not used for a while.
+    fn advance(&mut self) {
+        let start = if self.window.end + TIMED > self.pairs.len() { 0 } else { self.window.end };
+        self.window = start..start + self.window.len();
+    }
+
+    fn pairs(&self) -> &[(Vec3<f32>, Vec3<f32>, [f32; 3])] {
+        &self.pairs[self.window.clone()]
     }
 }
 
-type Case = (String, Box<dyn FnMut(&mut Data)>);
+/// A case, the rows that it is timed with, and what it does with all of them.
+struct Case {
+    name: String,
+    rows: &'static [usize],
+    body: Box<dyn FnMut(&mut Data)>,
+}
+
+impl Case {
+    fn new(name: String, rows: &'static [usize], body: impl FnMut(&mut Data) + 'static) -> Self {
+        Self { name, rows, body: Box::new(body) }
+    }
+}
 
 fn cases() -> Vec<Case> {
     let forms = [
@@ -62,24 +99,30 @@ fn cases() -> Vec<Case> {
         ("isotropic compensated", Params::isotropic(0.3).with_multiscatter_tint([1.0; 3])),
         ("anisotropic compensated", Params::anisotropic(0.3, 0.1).with_multiscatter_tint([1.0; 3])),
     ];
-    let mut cases: Vec<Case> = vec![("powf".into(), Box::new(powf))];
+    let mut cases = vec![Case::new("powf".to_owned(), &[REPEATED, FRESH], powf)];
     for (form, params) in forms {
         let lobe = Reciprocal::<f32>::new(&params).expect("legal parameters");
-        cases.push((format!("eval+pdf, {form}"), Box::new(move |data| eval_pdf(&lobe, data))));
-        cases.push((format!("sample, {form}"), Box::new(move |data| sample(&lobe, data))));
-        cases.push((format!("batch eval+pdf, {form}"), Box::new(move |data| batch_eval_pdf(&lobe, data))));
-        cases.push((format!("batch sample, {form}"), Box::new(move |data| batch_sample(&lobe, data))));
+        let mut add = |verb, rows, body: fn(&Reciprocal<f32>, &mut Data)| {
+            cases.push(Case::new(format!("{verb}, {form}"), rows, move |data| body(&lobe, data)));
+        };
+        add("eval+pdf", &[REPEATED, FRESH], eval_pdf);
+        add("sample", &[REPEATED, FRESH], sample);
+        add("batch eval+pdf", &[REPEATED], batch_eval_pdf);
+        add("short batch eval+pdf", &[SHORT], batch_eval_pdf);
+        add("batch sample", &[REPEATED], batch_sample);
     }
-    for (form, params) in &forms[..2] {
+    for (form, params) in &forms[2..] {
         let params = *params;
-        cases.push((format!("construct, {form}"), Box::new(move |_| construct(&params))));
+        cases.push(Case::new(format!("construct, {form}"), &[REPEATED], move |data| {
+            construct(&params, data.window.len());
+        }));
     }
     cases
 }
 
 fn powf(data: &mut Data) {
     let mut sum = 0.0;
-    for (base, exponent) in black_box(&data.columns[6]).iter().zip(black_box(&data.columns[7])) {
+    for (_, _, [base, exponent, _]) in black_box(data.pairs()) {
         sum += base.powf(*exponent * 20.0);
     }
     black_box(sum);
@@ -87,7 +130,7 @@ fn powf(data: &mut Data) {
 
 fn eval_pdf(lobe: &Reciprocal<f32>, data: &mut Data) {
     let mut sum = 0.0;
-    for (wo, wi, _) in black_box(&data.pairs) {
+    for (wo, wi, _) in black_box(data.pairs()) {
         let ([r, g, b], pdf) = black_box(lobe).eval_pdf(*wo, *wi);
         sum += (r + g) + (b + pdf);
     }
@@ -96,7 +139,7 @@ fn eval_pdf(lobe: &Reciprocal<f32>, data: &mut Data) {
 
 fn sample(lobe: &Reciprocal<f32>, data: &mut Data) {
     let mut sum = 0.0;
-    for (wo, _, u) in black_box(&data.pairs) {
+    for (wo, _, u) in black_box(data.pairs()) {
         if let Some(s) = black_box(lobe).sample(*wo, *u) {
             let [r, g, b] = s.weight;
             sum += ((s.wi.x + s.wi.y) + (s.wi.z + s.pdf)) + ((r + g) + b);
@@ -118,69 +161,80 @@ fn batch_sample(lobe: &Reciprocal<f32>, data: &mut Data) {
     batch::sample(black_box(lobe), [x, y, z], [u1, u2, u3], out);
 }
 
-fn construct(params: &Params<f32>) {
-    for _ in 0..N {
+fn construct(params: &Params<f32>, rows: usize) {
+    for _ in 0..rows {
         black_box(Reciprocal::new(black_box(params))).expect("legal parameters");
     }
 }
 
-/// Instructions per element, from the difference of two runs under Valgrind; `None` without Valgrind.
-fn instructions(case: &str) -> Option<f64> {
-    let run = |iterations: u32| -> Option<f64> {
+/// Nanoseconds per row.
+fn time(body: &mut dyn FnMut(&mut Data), data: &mut Data) -> f64 {
+    let passes = TIMED / data.window.len();
+    let start = Instant::now();
+    (0..passes).for_each(|_| body(data));
+    start.elapsed().as_secs_f64() * 1e9 / (passes * data.window.len()) as f64
+}
+
+/// Medians over the rounds: the case in units of powf, and in nanoseconds.
+fn measure(case: &mut Case, rows: usize, rounds: usize) -> [f64; 2] {
+    let mut data = Data::new(rows);
+    let mut round = |_| {
+        let unit = time(&mut powf, &mut data);
+        let own = time(&mut case.body, &mut data);
+        data.advance();
+        [own / unit, own]
+    };
+    let results: Vec<_> = (0..rounds).map(&mut round).collect();
+    [0, 1].map(|i| {
+        let mut column: Vec<f64> = results.iter().map(|result| result[i]).collect();
+        column.sort_by(f64::total_cmp);
+        column[column.len() / 2]
+    })
+}
+
+/// Instructions per row, from the difference of two runs under Valgrind; `None` without Valgrind.
+fn instructions(case: &str, rows: usize) -> Option<f64> {
+    let run = |passes: u32| -> Option<f64> {
         let output = Command::new("valgrind")
             .args(["--tool=callgrind", "--callgrind-out-file=/dev/null"])
             .arg(env::current_exe().ok()?)
-            .env(COUNT, format!("{iterations} {case}"))
+            .env(COUNT, format!("{passes} {case}"))
             .output()
             .ok()?;
         let text = String::from_utf8_lossy(&output.stderr).into_owned();
         text.lines().find_map(|line| line.split("Collected : ").nth(1)?.trim().parse().ok())
     };
-    Some((run(5)? - run(1)?) / (4 * N) as f64)
+    Some((run(5)? - run(1)?) / (4 * rows) as f64)
 }
 
-/// Median nanoseconds per element that Criterion wrote.
-fn nanoseconds(folder: &Path, case: &str) -> Option<f64> {
-    let file = folder.join(case.replace(['+', ',', ' '], "_")).join("new/estimates.json");
-    let estimates: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(file).ok()?).ok()?;
-    Some(estimates["median"]["point_estimate"].as_f64()? / N as f64)
-}
-
-fn report(folder: &Path) {
-    let powf = nanoseconds(folder, "powf");
-    println!("\nPer element, {} for the batch:\n", batch::instruction_set());
-    println!("{:42} {:>8} {:>8} {:>13}", "case", "ns", "powf", "instructions");
-    for (name, _) in cases() {
-        let ns = nanoseconds(folder, &name);
-        let cell = |x: Option<f64>| x.map_or("-".into(), |x| format!("{x:.2}"));
-        let ratio = ns.zip(powf).map(|(ns, powf)| ns / powf);
-        let count = instructions(&name).map_or("-".into(), |x| format!("{x:.0}"));
-        println!("{name:42} {:>8} {:>8} {count:>13}", cell(ns), cell(ratio));
-    }
+/// The child process: passes of one case over repeated rows.
+fn count(request: &str) {
+    let (passes, name) = request.split_once(' ').expect("set by `instructions`");
+    let mut case = cases().into_iter().find(|case| case.name == name).expect("set by `instructions`");
+    let mut data = Data::new(case.rows[0]);
+    (0..passes.parse().expect("set by `instructions`")).for_each(|_: u32| (case.body)(&mut data));
 }
 
 fn main() {
     if let Ok(request) = env::var(COUNT) {
-        let (iterations, case) = request.split_once(' ').expect("set by `instructions`");
-        let mut data = Data::new();
-        let (_, mut body) =
-            cases().into_iter().find(|(name, _)| name == case).expect("set by `instructions`");
-        (0..iterations.parse().expect("set by `instructions`")).for_each(|_: u32| body(&mut data));
-        return;
+        return count(&request);
     }
-    let folder = PathBuf::from(concat!(env!("CARGO_MANIFEST_DIR"), "/../../target/criterion"));
-    let mut criterion = Criterion::default()
-        .output_directory(&folder)
-        .warm_up_time(Duration::from_millis(300))
-        .measurement_time(Duration::from_secs(1))
-        .configure_from_args();
-    for (name, mut body) in cases() {
-        let mut data = Data::new();
-        criterion.bench_function(&name.replace(['+', ',', ' '], "_"), |b| b.iter(|| body(&mut data)));
-    }
-    criterion.final_summary();
     // `cargo test --benches` only checks that the cases run.
-    if env::args().any(|arg| arg == "--bench") {
-        report(&folder);
+    let timed = env::args().any(|arg| arg == "--bench");
+    let words: Vec<String> = env::args().skip(1).filter(|arg| !arg.starts_with('-')).collect();
+    println!("Per row; the batch with {}.\n", batch::instruction_set());
+    println!("| case | powf, repeated rows | powf, fresh rows | ns | instructions |\n|---|---|---|---|---|");
+    for mut case in cases() {
+        if !words.iter().all(|word| case.name.contains(word)) {
+            continue;
+        }
+        let rows = case.rows;
+        let rounds = if timed { ROUNDS } else { 1 };
+        let [ratio, ns] = measure(&mut case, rows[0], rounds);
+        let fresh = rows.get(1).map(|&rows| measure(&mut case, rows, rounds)[0]);
+        let fresh = fresh.map_or(String::new(), |ratio| format!("{ratio:.2}"));
+        let count = if timed { instructions(&case.name, rows[0]) } else { None };
+        let count = count.map_or(String::new(), |count| format!("{count:.0}"));
+        println!("| {} | {ratio:.2} | {fresh} | {ns:.2} | {count} |", case.name);
     }
 }
