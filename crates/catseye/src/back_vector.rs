@@ -95,7 +95,7 @@ impl<T: Real> Lobe<T> for BackVector<T> {
             return None;
         }
         if self.dirac {
-            return Some(Sample { wi: wo, weight: self.tint, pdf: T::ONE, component: Component::Dirac });
+            return Some(Sample::dirac(wo, self.tint));
         }
         let wi = self.sample_direction(wo, u1, u2);
         if !above_horizon(wo, wi) {

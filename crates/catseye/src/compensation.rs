@@ -1,6 +1,6 @@
 //! The diffuse-like lobe that returns what single scattering loses.
 
-use core::f64::consts::{FRAC_1_PI, FRAC_PI_2, PI};
+use core::f64::consts::{FRAC_PI_2, PI};
 
 use crate::albedo::{FastFit, Ray};
 use crate::{Real, Vec3};
@@ -21,7 +21,7 @@ const FRESH_DIGITS: f64 = 1021.618;
 pub(crate) struct Compensation<T> {
     fit: FastFit<T>,
     /// `1 / (pi (1 - rho_avg))`.
-    norm: T,
+    pub(crate) norm: T,
     /// The radial distribution along `tangent_u`; the only one in the isotropic case.
     first_ray: Ray<T>,
     /// Cumulated azimuthal density at the nodes, 0 first and 1 last.
@@ -37,8 +37,7 @@ impl<T: Real> Compensation<T> {
         let first_ray = fit.ray([T::ONE, T::ZERO]);
         let table = [T::ZERO; NODES];
         let mut lobe = Self { fit, norm: T::ZERO, first_ray, cumulated: table, density: table };
-        let quarter =
-            if fit.isotropic { first_ray.energy() * T::from_f64(FRAC_PI_2) } else { lobe.tabulate() };
+        let quarter = if fit.isotropic { first_ray.energy * T::from_f64(FRAC_PI_2) } else { lobe.tabulate() };
         lobe.norm = T::from_f64(0.25) / quarter;
         lobe
     }
@@ -48,9 +47,9 @@ impl<T: Real> Compensation<T> {
         let step = T::from_f64(1.0 / (NODES - 1) as f64);
         let mut integral = T::ZERO;
         for i in 0..NODES {
-            let (phi, slope) = azimuth(step * T::from_f64(i as f64));
-            let (sin, cos) = phi.sin_cos();
-            self.density[i] = self.fit.ray(self.fit.in_frame([cos, sin])).energy() * slope;
+            let (turn, slope) = azimuth(step * T::from_f64(i as f64));
+            let (sin, cos) = turn.sin_cos_turns();
+            self.density[i] = self.fit.energy(self.fit.in_frame([cos, sin])) * slope;
             // Simpson's rule for the norm, the trapezoid rule for what is sampled: the table is linear between nodes.
             let simpson = if i == 0 || i == NODES - 1 { 1.0 } else { 2.0 + 2.0 * (i % 2) as f64 };
             integral += self.density[i] * step * T::from_f64(simpson / 3.0);
@@ -79,12 +78,6 @@ impl<T: Real> Compensation<T> {
     #[inline(always)]
     pub(crate) fn loss<const ISOTROPIC: bool>(&self, w: Vec3<T>) -> T {
         self.fit.loss_as::<ISOTROPIC>(w.x, w.y)
-    }
-
-    /// The lobe q in 1/sr.
-    #[inline(always)]
-    pub(crate) fn lobe<const ISOTROPIC: bool>(&self, w: Vec3<T>) -> T {
-        self.loss::<ISOTROPIC>(w) * self.norm
     }
 
     /// Draws a direction with the density `q cos`, from a fresh uniform number and the digits of u1 that the first use
@@ -121,7 +114,7 @@ impl<T: Real> Compensation<T> {
         let root = (low * low + T::TWO * (high - low) * area).max(T::ZERO).sqrt();
         let inside = (T::TWO * area / (low + root).max(T::from_f64(1e-30))).min(T::ONE);
         let parameter = (node + inside) * T::from_f64(1.0 / (NODES - 1) as f64);
-        let (sin, cos) = (azimuth(parameter).0 * T::from_f64(0.5 * FRAC_1_PI)).sin_cos_turns();
+        let (sin, cos) = azimuth(parameter).0.sin_cos_turns();
         let [x, y] = self.fit.in_frame([cos, sin]);
         // Quadrants 0 to 3: (+, +), (-, +), (-, -), (+, -).
         let x_negative = quadrant == T::ONE || quadrant == T::TWO;
@@ -129,10 +122,10 @@ impl<T: Real> Compensation<T> {
     }
 }
 
-/// Azimuth from the wider axis at the parameter in `[0, 1]` of the table, and its derivative. The nodes crowd towards
-/// the narrower axis, where the loss has a bend.
+/// Azimuth from the wider axis, in turns, at the parameter in `[0, 1]` of the table, and its derivative in radians. The
+/// nodes crowd towards the narrower axis, where the loss has a bend.
 #[inline(always)]
 fn azimuth<T: Real>(parameter: T) -> (T, T) {
     let rest = T::ONE - parameter;
-    (T::from_f64(FRAC_PI_2) * (T::ONE - rest * rest), T::from_f64(PI) * rest)
+    (T::from_f64(0.25) * (T::ONE - rest * rest), T::from_f64(PI) * rest)
 }

@@ -14,6 +14,12 @@ pub(crate) fn is_above_horizon<T: Real>(w: Vec3<T>) -> bool {
     w.z > T::from_f64(HORIZON)
 }
 
+/// The density of disk samples per steradian, for the lump B of two directions above the horizon.
+#[inline(always)]
+pub(crate) fn density<T: Real>(lump: T, wo: Vec3<T>, wi: Vec3<T>) -> T {
+    lump * (wo.z / (wi.z * (wo.z + wi.z))) // B z_o / (z_i (z_o + z_i))
+}
+
 /// Whether both directions are above the horizon. False for NaN.
 #[inline(always)]
 pub(crate) fn above_horizon<T: Real>(wo: Vec3<T>, wi: Vec3<T>) -> bool {
@@ -43,60 +49,65 @@ pub(crate) fn widths<T: Real>(roughness: [T; 2]) -> Option<[T; 2]> {
 pub(crate) struct Disk<T> {
     pub(crate) m_u: T,
     pub(crate) m_v: T,
-    inv_m_u: T,
-    inv_m_v: T,
+    /// `n_u + 1` and `n_v + 1`.
+    exponents: [T; 2],
     /// `1 / (2 pi m_u m_v) = sqrt((n_u+1)(n_v+1)) / (2 pi)`, the factor of B.
-    pub(crate) norm: T,
+    norm: T,
 }
 
 /// A disk offset drawn from the distribution.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct DiskSample<T> {
     pub(crate) wi: Vec3<T>,
-    /// [`Disk::power`] of the pair of directions, exact for the drawn offset where `wi` has been rounded.
-    pub(crate) power: T,
+    /// `z_i / z_o`.
+    pub(crate) ratio: T,
+    /// [`Disk::lump`] of the pair of directions, exact for the drawn offset where `wi` has been rounded.
+    pub(crate) lump: T,
+}
+
+impl<T: Real> DiskSample<T> {
+    /// The density of disk samples per steradian at the drawn direction: `B z_o / (z_i (z_o + z_i))`.
+    #[inline(always)]
+    pub(crate) fn density(&self) -> T {
+        self.lump / (self.wi.z * (T::ONE + self.ratio)) // z_o + z_i = z_o (1 + z_i / z_o)
+    }
 }
 
 impl<T: Real> Disk<T> {
     /// The distribution for both roughnesses, or `None` where they make a Dirac lobe.
     pub(crate) fn new(roughness: [T; 2]) -> Option<Self> {
         let [m_u, m_v] = widths(roughness)?;
-        let norm = T::from_f64(0.5 * core::f64::consts::FRAC_1_PI) / (m_u * m_v);
-        Some(Self { m_u, m_v, inv_m_u: T::ONE / m_u, inv_m_v: T::ONE / m_v, norm })
+        let inv = [T::ONE / m_u, T::ONE / m_v];
+        let norm = T::from_f64(0.5 * core::f64::consts::FRAC_1_PI) * (inv[0] * inv[1]);
+        Some(Self { m_u, m_v, exponents: inv.map(|x| x * x), norm })
     }
 
-    /// The power `(1-|d|^2)^(n+1)` for two directions above the horizon: B is it times [`Disk::norm`].
+    /// The lump `B = sqrt((n_u+1)(n_v+1)) / (2 pi) (1-|d|^2)^(n+1)` for two directions above the horizon: Eq. 26 and 32,
+    /// as theory.md section 2 rewrites them.
     ///
-    /// With `e = (d_x/m_u, d_y/m_v)` the power is `exp(|e|^2 / |d|^2 ln(1-|d|^2))`: a Gaussian with a correction that
-    /// tends to 1 for small d. In the isotropic case the first quotient is the constant `n + 1`. Everything is scaled
-    /// by `z_o + z_i`, which spares a division.
+    /// The exponent is `n + 1 = ((n_u+1) d_x^2 + (n_v+1) d_y^2) / |d|^2`; in the isotropic case it is a constant.
+    /// Everything is scaled by `z_o + z_i`, which spares a division.
     #[inline(always)]
-    pub(crate) fn power<const ISOTROPIC: bool>(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
+    pub(crate) fn lump<const ISOTROPIC: bool>(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
+        // (1 - |d|^2) (z_o + z_i)^2 = z_o z_i |wo + wi|^2, accurate where |d| is near 1. Above the horizon it is a normal
+        // number.
+        let (sx, sy, sz) = (wo.x + wi.x, wo.y + wi.y, wo.z + wi.z);
+        let whole = sz * sz;
+        let part = (wo.z * wi.z) * (sy.mul_add(sy, sx * sx) + whole);
         // d (z_o + z_i) = z_o i_xy - z_i o_xy, written with differences that are exact near the retro direction
         // (Sterbenz), where the lobe lives.
         let dz = wi.z - wo.z;
         let dx = wo.z * (wi.x - wo.x) - dz * wo.x;
         let dy = wo.z * (wi.y - wo.y) - dz * wo.y;
-        let d2 = dx * dx + dy * dy;
-        // (1 - |d|^2) (z_o + z_i)^2 = z_o z_i |wo + wi|^2, accurate where |d| is near 1.
-        let (sx, sy, sz) = (wo.x + wi.x, wo.y + wi.y, wo.z + wi.z);
-        let whole = sz * sz;
-        let part = (wo.z * wi.z) * (sx * sx + sy * sy + whole);
-        // At d = 0 the quotient is 0 and the power 1, as it should be. Where part is tiny, the power is 0.
-        let tiny = T::from_f64(1e-36);
+        let d2 = dy.mul_add(dy, dx * dx);
+        let [n_u, n_v] = self.exponents;
         let exponent = if ISOTROPIC {
-            self.inv_m_u * self.inv_m_u
+            n_u
         } else {
-            let (ex, ey) = (dx * self.inv_m_u, dy * self.inv_m_v);
-            (ex * ex + ey * ey) / d2.max(tiny)
+            // At d = 0 the quotient is 0 and the power 1, as it should be.
+            (n_u * (dx * dx) + n_v * (dy * dy)) / d2.max(T::from_f64(1e-36)) // n + 1
         };
-        d2.log2_power(exponent, part.max(tiny), whole).exp2_nonpositive()
-    }
-
-    /// The density `pdf_ss = B z_o / (z_i (z_o+z_i))` of the drawn direction, given the power for the pair.
-    #[inline(always)]
-    pub(crate) fn density(&self, power: T, wo: Vec3<T>, wi: Vec3<T>) -> T {
-        power * (self.norm * wo.z / (wi.z * (wo.z + wi.z)))
+        d2.log2_power(exponent, part, whole).exp2_nonpositive(self.norm) // norm (1 - |d|^2)^(n+1)
     }
 
     /// Draws an offset d from the distribution and reflects `wo` about the half vector `(o_xy + d, z_o)`.
@@ -104,25 +115,30 @@ impl<T: Real> Disk<T> {
     /// With the ellipse's point `e = (m_u cos 2 pi u1, m_v sin 2 pi u1)` the exponent along the drawn azimuth is
     /// `n + 1 = 1 / |e|^2`, and `d = e sqrt(|d|^2 / |e|^2)` with `|d|^2 = 1 - (1 - u2)^(1/(n+1))`.
     #[inline(always)]
-    pub(crate) fn sample(&self, wo: Vec3<T>, u1: T, u2: T) -> DiskSample<T> {
+    pub(crate) fn sample<const ISOTROPIC: bool>(&self, wo: Vec3<T>, u1: T, u2: T) -> DiskSample<T> {
+        // Draw the offset.
         let (sin, cos) = u1.sin_cos_turns();
-        let (ex, ey) = (self.m_u * cos, self.m_v * sin);
-        let m2 = ex * ex + ey * ey;
         let rest = T::ONE - u2;
-        let d2 = -(u2.ln_one_minus(rest) * m2).exp_m1_nonpositive();
-        let scale = (d2 * (T::ONE / m2)).sqrt();
-        let (dx, dy) = (ex * scale, ey * scale);
-        // i = 2 (o.h)/(h.h) h - o, arranged as o plus a small step so that narrow lobes keep their digits.
+        let log = u2.ln_one_minus(rest);
+        let (dx, dy, d2) = if ISOTROPIC {
+            let d2 = -(log * (self.m_u * self.m_u)).exp_m1_nonpositive();
+            let d = d2.sqrt();
+            (d * cos, d * sin, d2)
+        } else {
+            let (ex, ey) = (self.m_u * cos, self.m_v * sin);
+            let e2 = ex * ex + ey * ey;
+            let d2 = -(log * e2).exp_m1_nonpositive();
+            let scale = (d2 / e2).sqrt();
+            (ex * scale, ey * scale, d2)
+        };
+        // Reflect: i = 2 (o.h)/(h.h) h - o, arranged as o plus a small step so that narrow lobes keep their digits.
         let (hx, hy) = (wo.x + dx, wo.y + dy);
         let inv = T::ONE / (hx * hx + hy * hy + wo.z * wo.z);
         let a = wo.x * dx + wo.y * dy;
         let k = T::TWO * (T::ONE + a) * inv;
         let step = -T::TWO * (a + d2) * inv;
-        let wi = Vec3::new(
-            wo.x + (k * dx + step * wo.x),
-            wo.y + (k * dy + step * wo.y),
-            wo.z * (T::ONE - d2) * inv,
-        );
-        DiskSample { wi, power: rest }
+        let ratio = (T::ONE - d2) * inv;
+        let wi = Vec3::new(wo.x + (k * dx + step * wo.x), wo.y + (k * dy + step * wo.y), wo.z * ratio);
+        DiskSample { wi, ratio, lump: self.norm * rest }
     }
 }

@@ -1,6 +1,6 @@
 //! The asymmetric lobe of the halfway-vector-disk paper.
 
-use crate::disk::{Disk, above_horizon, is_above_horizon};
+use crate::disk::{Disk, above_horizon, density, is_above_horizon};
 use crate::{Component, Lobe, ParamError, Params, Real, Sample, Vec3};
 
 /// The lobe of Edwards et al. 2006 as published: `f = B z_o / (z_i^2 (z_o + z_i))`, the density of its samples over
@@ -32,7 +32,7 @@ impl<T: Real> Lobe<T> for Edwards<T> {
         if !above_horizon(wo, wi) {
             return ([T::ZERO; 3], T::ZERO);
         }
-        let pdf = disk.density(disk.power::<false>(wo, wi), wo, wi);
+        let pdf = density(disk.lump::<false>(wo, wi), wo, wi);
         (self.tint.map(|t| t * pdf / wi.z), pdf)
     }
 
@@ -42,13 +42,13 @@ impl<T: Real> Lobe<T> for Edwards<T> {
             return None;
         }
         let Some(disk) = &self.disk else {
-            return Some(Sample { wi: wo, weight: self.tint, pdf: T::ONE, component: Component::Dirac });
+            return Some(Sample::dirac(wo, self.tint));
         };
-        let drawn = disk.sample(wo, u1, u2);
+        let drawn = disk.sample::<false>(wo, u1, u2);
         if !above_horizon(wo, drawn.wi) {
             return None;
         }
-        let pdf = disk.density(drawn.power, wo, drawn.wi);
+        let pdf = drawn.density();
         Some(Sample { wi: drawn.wi, weight: self.tint, pdf, component: Component::Single })
     }
 

@@ -1,11 +1,13 @@
-//! Single-precision elementary functions without branches, calls or fused operations.
+//! Single-precision elementary functions without branches or calls.
 //!
 //! They are inlined into the lobes, turn into vector code in `batch`, and give the same bits on every machine. All
-//! polynomials are the functions' Taylor series, cut where the next term is below half a unit in the last place, and
-//! summed as a tree, since their latency is what a single evaluation waits for. Selections are marked so that they do
-//! not become branches, which random directions would mispredict.
+//! polynomials meet the functions' Taylor series at Chebyshev nodes of the range that they are used in, which needs
+//! one or two terms fewer than the series itself; their errors are below half a unit in the last place. They are summed
+//! as a tree, since their latency is what a single evaluation waits for. Selections are marked so that they do not
+//! become branches, which random directions would mispredict.
 
-use core::f32::consts::{FRAC_PI_2, LOG2_E};
+use core::f32::consts::LOG2_E;
+use core::f64::consts::{FRAC_1_SQRT_2, LN_2, PI};
 use core::hint::select_unpredictable as select;
 
 /// Added and subtracted, it rounds a value of magnitude below 2^22 to the nearest integer.
@@ -18,8 +20,110 @@ const LN_2_LOW: f32 = -2.121_944_4e-4;
 /// The bits of 1 less those of sqrt(1/2).
 const HALF_OCTAVE: i32 = 0x3f80_0000 - 0x3f35_04f3;
 
+/// The bits of a number that are not its fraction.
+const WHOLE_OCTAVES: i32 = -0x80_0000;
+
 /// Powers below this are flushed to 0.
 const LOWEST_POWER: f32 = -115.0;
+
+/// Chebyshev nodes in `[-1, 1]`.
+const TWO_NODES: [f64; 2] = [-FRAC_1_SQRT_2, FRAC_1_SQRT_2];
+const FIVE_NODES: [f64; 5] = [
+    -0.951_056_516_295_153_5,
+    -0.587_785_252_292_473_1,
+    0.0,
+    0.587_785_252_292_473_1,
+    0.951_056_516_295_153_5,
+];
+const THREE_NODES: [f64; 3] = [-0.866_025_403_784_438_6, 0.0, 0.866_025_403_784_438_6];
+
+/// Coefficients of the polynomial that meets a power series at Chebyshev nodes in `[0, range]`.
+const fn economized<const N: usize>(series: [f64; 8], nodes: [f64; N], range: f64) -> [f32; N] {
+    // Divided differences, Newton's form.
+    let (mut x, mut divided) = ([0.0; N], [0.0; N]);
+    let mut i = 0;
+    while i < N {
+        x[i] = 0.5 * range * (1.0 + nodes[i]);
+        let mut k = series.len();
+        while k > 0 {
+            k -= 1;
+            divided[i] = divided[i] * x[i] + series[k];
+        }
+        i += 1;
+    }
+    let mut order = 1;
+    while order < N {
+        let mut i = N - 1;
+        while i >= order {
+            divided[i] = (divided[i] - divided[i - 1]) / (x[i] - x[i - order]);
+            i -= 1;
+        }
+        order += 1;
+    }
+    // Horner's scheme in x - x[i], multiplied out.
+    let mut powers = [0.0; N];
+    let mut i = N;
+    while i > 0 {
+        i -= 1;
+        let mut k = N - 1;
+        while k > 0 {
+            powers[k] = powers[k - 1] - x[i] * powers[k];
+            k -= 1;
+        }
+        powers[0] = divided[i] - x[i] * powers[0];
+    }
+    let mut rounded = [0.0; N];
+    let mut i = 0;
+    while i < N {
+        rounded[i] = powers[i] as f32;
+        i += 1;
+    }
+    rounded
+}
+
+/// The terms of `exp(base x)` from the order `first` on, every second one, over the power of x of the first of them: a
+/// series in x^2.
+const fn exp_series(base: f64, first: usize) -> [f64; 8] {
+    let mut series = [0.0; 8];
+    let (mut term, mut order) = (1.0, 0);
+    while order < first + 16 {
+        if order >= first && (order - first).is_multiple_of(2) {
+            series[(order - first) / 2] = term;
+        }
+        order += 1;
+        term *= base / order as f64;
+    }
+    series
+}
+
+/// `factor / (first + 2 k)`: the series of `factor` atanh(x) from the power `first` of x on, over that power.
+const fn atanh_series(factor: f64, first: usize) -> [f64; 8] {
+    let mut series = [0.0; 8];
+    let mut k = 0;
+    while k < series.len() {
+        series[k] = factor / (first + 2 * k) as f64;
+        k += 1;
+    }
+    series
+}
+
+/// `sin(pi x) / x - 2`: a series in x^2.
+const fn sin_series() -> [f64; 8] {
+    let mut series = exp_series(PI, 1);
+    series[0] -= 2.0;
+    let mut k = 1;
+    while k < series.len() {
+        series[k] = -series[k];
+        k += 2;
+    }
+    series
+}
+
+/// `a * b + c`.
+#[inline(always)]
+fn fma(a: f32, b: f32, c: f32) -> f32 {
+    crate::Real::mul_add(a, b, c)
+}
 
 /// Fractional part of a value in `[0, 2^22)`.
 #[inline(always)]
@@ -37,92 +141,97 @@ fn exp2_of_rounded(n_plus_round: f32) -> f32 {
 /// `exp(r) - 1` for `|r|` up to ln(2) / 2.
 #[inline(always)]
 fn exp_m1_reduced(r: f32) -> f32 {
+    const RANGE: f64 = 0.25 * LN_2 * LN_2;
+    const EVEN: [f32; 3] = economized(exp_series(1.0, 2), THREE_NODES, RANGE);
+    const ODD: [f32; 2] = economized(exp_series(1.0, 3), TWO_NODES, RANGE);
     let r2 = r * r;
-    let low = 0.5 + r * (1.0 / 6.0);
-    let middle = 1.0 / 24.0 + r * (1.0 / 120.0);
-    let high = 1.0 / 720.0 + r * (1.0 / 5040.0);
-    r + r2 * (low + r2 * (middle + r2 * high))
+    let low = fma(r, ODD[0], EVEN[0]);
+    let high = fma(r2, EVEN[2], fma(r, ODD[1], EVEN[1]));
+    fma(r2, fma(r2, high, low), r)
 }
 
-/// 2 to the power of x in `[-inf, 0]`, within 2 ulp; 0 below -115 and for NaN.
+/// `factor` times 2 to the power of x in `[-inf, 0]`, within 2 ulp; 0 below -115 and for NaN.
 #[inline(always)]
-pub(crate) fn exp2_nonpositive(x: f32) -> f32 {
-    const C: [f32; 8] = exp2_series();
+pub(crate) fn exp2_nonpositive(x: f32, factor: f32) -> f32 {
+    const EVEN: [f32; 3] = economized(exp_series(LN_2, 2), THREE_NODES, 0.25);
+    const ODD: [f32; 3] = economized(exp_series(LN_2, 1), THREE_NODES, 0.25);
     let clamped = if x > LOWEST_POWER { x } else { LOWEST_POWER };
     let n_plus_round = clamped + ROUND;
     let r = clamped - (n_plus_round - ROUND);
     let r2 = r * r;
-    let y = (C[0] + r * C[1]) + r2 * ((C[2] + r * C[3]) + r2 * ((C[4] + r * C[5]) + r2 * (C[6] + r * C[7])));
-    y * select(x > LOWEST_POWER, exp2_of_rounded(n_plus_round), 0.0)
-}
-
-/// `ln(2)^k / k!`
-const fn exp2_series() -> [f32; 8] {
-    let mut series = [1.0; 8];
-    let (mut term, mut k) = (1.0, 1);
-    while k < 8 {
-        term *= core::f64::consts::LN_2 / k as f64;
-        series[k] = term as f32;
-        k += 1;
-    }
-    series
+    let low = fma(r2, fma(r, ODD[1], EVEN[0]), fma(r, ODD[0], 1.0));
+    let high = fma(r2, EVEN[2], fma(r, ODD[2], EVEN[1]));
+    let scale = select(x > LOWEST_POWER, exp2_of_rounded(n_plus_round), 0.0);
+    fma(r2 * r2, high, low) * (scale * factor)
 }
 
 /// `exp(x) - 1` for x in `[-80, 0]`, within 2 ulp.
 #[inline(always)]
 pub(crate) fn exp_m1_nonpositive(x: f32) -> f32 {
-    let n_plus_round = x * LOG2_E + ROUND;
+    let n_plus_round = fma(x, LOG2_E, ROUND);
     let n = n_plus_round - ROUND;
-    let r = (x - n * LN_2_HIGH) - n * LN_2_LOW;
+    let r = fma(n, -LN_2_LOW, fma(n, -LN_2_HIGH, x));
     let scale = exp2_of_rounded(n_plus_round);
-    scale * exp_m1_reduced(r) + (scale - 1.0)
+    fma(scale, exp_m1_reduced(r), scale - 1.0)
 }
 
-/// The integer k and `atanh(s)` with `part / whole = 2^k (1+s)/(1-s)`, given also `lacking = whole - part` with all its
-/// digits. The quotient is in `(0, 1]`; `whole` and `part` are normal numbers.
+/// The integer k and s with `part / whole = 2^k (1+s)/(1-s)` and |s| below 0.2266, given also `lacking = whole - part`
+/// with all its digits. The quotient is in `(0, 1]`; `whole` and `part` are normal numbers.
 #[inline(always)]
 fn reduce_log(lacking: f32, part: f32, whole: f32) -> (f32, f32) {
     // The difference of the bits is nearly 2^23 log2(part / whole); k is an integer near it, and 0 where little lacks.
     let log = (part.to_bits() as i32).wrapping_sub(whole.to_bits() as i32);
-    let k = log.wrapping_add(HALF_OCTAVE) >> 23;
-    let scaled = f32::from_bits((part.to_bits() as i32).wrapping_sub(k << 23) as u32);
-    let s = select(k == 0, -lacking, scaled - whole) / (scaled + whole);
-    let z = s * s;
-    let low = 1.0 / 3.0 + z * (1.0 / 5.0);
-    let high = 1.0 / 7.0 + z * (1.0 / 9.0);
-    (k as f32, s + (s * z) * (low + z * z * high))
+    let octaves = log.wrapping_add(HALF_OCTAVE) & WHOLE_OCTAVES;
+    let scaled = f32::from_bits((part.to_bits() as i32).wrapping_sub(octaves) as u32);
+    // scaled - whole; where k is 0, that is -lacking with all its digits.
+    let s = ((scaled - part) - lacking) / (scaled + whole);
+    (octaves as f32 * (1.0 / 8_388_608.0), s)
 }
+
+/// The greatest square of what [`reduce_log`] returns.
+const LOG_RANGE: f64 = 0.2266 * 0.2266;
 
 /// `exponent * log2(part / whole)` within 5 ulp, for a quotient in `(0, 1]` of normal numbers, given also `whole - part`.
 #[inline(always)]
 pub(crate) fn log2_power(exponent: f32, lacking: f32, part: f32, whole: f32) -> f32 {
-    let (k, atanh) = reduce_log(lacking, part, whole);
-    exponent * k + (exponent * (2.0 * LOG2_E)) * atanh
+    // log2(e) 2 atanh(s) = s (TWO_LOG2_E + z P(z)), z = s^2
+    const TWO_LOG2_E: f32 = 2.0 * LOG2_E;
+    const P: [f32; 3] = economized(atanh_series(2.0 / LN_2, 3), THREE_NODES, LOG_RANGE);
+    let (k, s) = reduce_log(lacking, part, whole);
+    let z = s * s;
+    let log_over_s = fma(z * z, fma(z, P[2], P[1]), fma(z, P[0], TWO_LOG2_E));
+    exponent * fma(s, log_over_s, k)
 }
 
 /// `ln(1 - x)` within 4 ulp, for x in `[0, 1)`, given also `1 - x`.
 #[inline(always)]
 pub(crate) fn ln_one_minus(x: f32, complement: f32) -> f32 {
-    let (k, atanh) = reduce_log(x, complement, 1.0);
-    k * LN_2_HIGH + (2.0 * atanh + k * LN_2_LOW)
+    const P: [f32; 3] = economized(atanh_series(2.0, 3), THREE_NODES, LOG_RANGE);
+    let (k, s) = reduce_log(x, complement, 1.0);
+    let z = s * s;
+    let rest = fma(z * z, P[2], fma(z, P[1], P[0]));
+    fma(k, LN_2_HIGH, (s + s) + fma(s * z, rest, k * LN_2_LOW))
 }
 
 /// Sine and cosine of `2 pi u` for u in `[0, 1]`, within 1.2e-7.
 #[inline(always)]
 pub(crate) fn sin_cos_turns(u: f32) -> (f32, f32) {
-    let quarter_plus_round = u * 4.0 + ROUND;
-    let r = (u * 4.0 - (quarter_plus_round - ROUND)) * FRAC_PI_2;
-    let quarter = quarter_plus_round.to_bits();
-    let z = r * r;
+    // Whole half turns only decide the sign. What is left, in half turns, and its complement are exact.
+    let half_turns_plus_round = (u + u) + ROUND;
+    let r = (u + u) - (half_turns_plus_round - ROUND);
+    let sign = half_turns_plus_round.to_bits() << 31;
+    let signed = |x: f32| f32::from_bits(x.to_bits() ^ sign);
+    (signed(sin_half_turns(r)), signed(sin_half_turns(0.5 - r.abs())))
+}
+
+/// Sine of `pi x` for x in `[-1/2, 1/2]`.
+#[inline(always)]
+fn sin_half_turns(x: f32) -> f32 {
+    // x (2 + P(x^2)): the sum of two small numbers has the smaller rounding errors.
+    const P: [f32; 5] = economized(sin_series(), FIVE_NODES, 0.25);
+    let z = x * x;
     let z2 = z * z;
-    let sin = r + r * (z * ((-1.0 / 6.0 + z * (1.0 / 120.0)) + z2 * (-1.0 / 5040.0 + z * (1.0 / 362_880.0))));
-    let cos = 1.0 + z * ((-0.5 + z * (1.0 / 24.0)) + z2 * (-1.0 / 720.0 + z * (1.0 / 40320.0)));
-    let odd = quarter & 1 == 1;
-    let (sin, cos) = (select(odd, cos, sin), select(odd, sin, cos));
-    // Signs by quadrant: sine is negative in the last two, cosine in the middle two.
-    let sin_sign = (quarter & 2) << 30;
-    let cos_sign = (quarter.wrapping_add(1) & 2) << 30;
-    (f32::from_bits(sin.to_bits() ^ sin_sign), f32::from_bits(cos.to_bits() ^ cos_sign))
+    (x + x) + x * fma(z2, fma(z2, P[4], fma(z, P[3], P[2])), fma(z, P[1], P[0]))
 }
 
 #[cfg(test)]
@@ -142,7 +251,7 @@ mod tests {
             let u = i as f32 / 1e6;
             let exact = f64::from(u);
             let x = -79.9 * u * u;
-            assert!(ulps(exp2_nonpositive(x), f64::from(x).exp2()) < 2.0, "exp2 {x}");
+            assert!(ulps(exp2_nonpositive(x, 1.0), f64::from(x).exp2()) < 2.0, "exp2 {x}");
             assert!(ulps(exp_m1_nonpositive(x), f64::from(x).exp_m1()) < 2.0, "exp_m1 {x}");
             let y = (1.0 - exact) as f32;
             assert!(ulps(ln_one_minus(u, y), (-exact).ln_1p()) < 4.0, "ln {u}");
@@ -164,9 +273,9 @@ mod tests {
 
     #[test]
     fn edges() {
-        assert_eq!(exp2_nonpositive(0.0), 1.0);
-        assert_eq!(exp2_nonpositive(f32::NEG_INFINITY), 0.0);
-        assert_eq!(exp2_nonpositive(f32::NAN), 0.0);
+        assert_eq!(exp2_nonpositive(0.0, 1.0), 1.0);
+        assert_eq!(exp2_nonpositive(f32::NEG_INFINITY, 1.0), 0.0);
+        assert_eq!(exp2_nonpositive(f32::NAN, 1.0), 0.0);
         assert_eq!(exp_m1_nonpositive(0.0), 0.0);
         assert_eq!(log2_power(7.0, 0.0, 1.0, 1.0), 0.0);
         assert_eq!(sin_cos_turns(0.25), (1.0, 0.0));

@@ -61,7 +61,7 @@ mod vec3;
 pub use back_vector::BackVector;
 pub use disk::{DIRAC_ROUGHNESS, width};
 pub use edwards::Edwards;
-pub use lobe::{Component, Lobe, LobeVisitor, Sample};
+pub use lobe::{Component, Lobe, Sample};
 pub use model::{AnyLobe, Model};
 pub use params::{ParamError, Params};
 pub use real::Real;

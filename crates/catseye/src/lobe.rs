@@ -39,6 +39,13 @@ pub struct Sample<T> {
     pub component: Component,
 }
 
+impl<T: Real> Sample<T> {
+    /// The reflection of a perfect retro-reflector.
+    pub(crate) fn dirac(wo: Vec3<T>, tint: [T; 3]) -> Self {
+        Self { wi: wo, weight: tint, pdf: T::ONE, component: Component::Dirac }
+    }
+}
+
 /// A BSDF lobe in the local frame.
 pub trait Lobe<T: Real> {
     /// The BSDF f(wo, wi) in 1/sr per channel, cosine not included, and the density, per steradian, with which
@@ -75,16 +82,18 @@ pub trait Lobe<T: Real> {
 
     /// Calls `visitor` with the lobe in the form that has the fewest decisions left to make, for long loops.
     #[inline(always)]
-    fn specialize<V: LobeVisitor<T>>(&self, visitor: V)
+    fn specialize<V: LobeVisitor<T>>(&self, visitor: V) -> V::Output
     where
-        Self: Copy + Sized,
+        Self: Copy,
     {
-        visitor.visit(*self);
+        visitor.visit(*self)
     }
 }
 
-/// A loop over a lobe, compiled once for each form of it. See [`Lobe::specialize`].
+/// Code that uses a lobe, compiled once for each form of it. See [`Lobe::specialize`].
 pub trait LobeVisitor<T: Real> {
-    /// Runs the loop.
-    fn visit<L: Lobe<T> + Copy>(self, lobe: L);
+    /// What it returns.
+    type Output;
+    /// Runs it.
+    fn visit<L: Lobe<T> + Copy>(self, lobe: L) -> Self::Output;
 }

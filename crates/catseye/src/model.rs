@@ -2,7 +2,8 @@
 
 use crate::albedo::exact;
 use crate::disk::{is_above_horizon, width};
-use crate::{BackVector, Edwards, Lobe, LobeVisitor, ParamError, Params, Real, Reciprocal, Sample, Vec3};
+use crate::lobe::LobeVisitor;
+use crate::{BackVector, Edwards, Lobe, ParamError, Params, Real, Reciprocal, Sample, Vec3};
 
 /// Cosines and azimuths of the directions that the mean of other models than the reciprocal one is taken over.
 const AVERAGE: [u32; 2] = [128, 16];
@@ -138,7 +139,7 @@ impl<T: Real> Lobe<T> for AnyLobe<T> {
         forward!(self, lobe => lobe.is_dirac())
     }
 
-    fn specialize<V: LobeVisitor<T>>(&self, visitor: V) {
-        forward!(self, lobe => lobe.specialize(visitor));
+    fn specialize<V: LobeVisitor<T>>(&self, visitor: V) -> V::Output {
+        forward!(self, lobe => lobe.specialize(visitor))
     }
 }

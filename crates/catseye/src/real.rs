@@ -58,9 +58,10 @@ pub trait Real:
     /// The fractional part of a value in `[0, 2^22)`.
     #[must_use]
     fn fract(self) -> Self;
-    /// 2 to the power of a value in `[-inf, 0]`; 0 below -115, where denormals would cost more than they are worth.
+    /// `factor` times 2 to the power of a value in `[-inf, 0]`; 0 below -115, where denormals would cost more than they
+    /// are worth.
     #[must_use]
-    fn exp2_nonpositive(self) -> Self;
+    fn exp2_nonpositive(self, factor: Self) -> Self;
     /// `exp(self) - 1` for a value in `[-80, 0]`, accurate for small values.
     #[must_use]
     fn exp_m1_nonpositive(self) -> Self;
@@ -72,6 +73,9 @@ pub trait Real:
     /// small.
     #[must_use]
     fn log2_power(self, exponent: Self, part: Self, whole: Self) -> Self;
+    /// `self * factor + summand`, rounded once where the feature `fused` is on and the target has an instruction for it.
+    #[must_use]
+    fn mul_add(self, factor: Self, summand: Self) -> Self;
     /// Sine and cosine of an angle in radians.
     fn sin_cos(self) -> (Self, Self);
     /// Sine and cosine of an angle in turns, in `[0, 1]`.
@@ -101,6 +105,20 @@ macro_rules! math {
         #[cfg(all(not(feature = "std"), feature = "libm"))]
         {
             $libm
+        }
+    }};
+}
+
+/// Multiplies and adds, in one instruction where that is wanted and there is one.
+macro_rules! mul_add {
+    ($x:expr, $factor:expr, $summand:expr) => {{
+        #[cfg(all(feature = "fused", any(target_feature = "fma", target_feature = "neon")))]
+        {
+            $x.mul_add($factor, $summand)
+        }
+        #[cfg(not(all(feature = "fused", any(target_feature = "fma", target_feature = "neon"))))]
+        {
+            $summand + $x * $factor
         }
     }};
 }
@@ -142,8 +160,8 @@ impl Real for f64 {
         math!(self.fract(), self - libm::trunc(self))
     }
     #[inline(always)]
-    fn exp2_nonpositive(self) -> Self {
-        if self > -115.0 { math!(self.exp2(), libm::exp2(self)) } else { 0.0 }
+    fn exp2_nonpositive(self, factor: Self) -> Self {
+        if self > -115.0 { factor * math!(self.exp2(), libm::exp2(self)) } else { 0.0 }
     }
     #[inline(always)]
     fn exp_m1_nonpositive(self) -> Self {
@@ -160,6 +178,10 @@ impl Real for f64 {
     #[inline(always)]
     fn log2_power(self, exponent: Self, part: Self, whole: Self) -> Self {
         exponent * Real::ln_one_minus(self / whole, part / whole) * core::f64::consts::LOG2_E
+    }
+    #[inline(always)]
+    fn mul_add(self, factor: Self, summand: Self) -> Self {
+        mul_add!(self, factor, summand)
     }
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {
@@ -205,8 +227,8 @@ impl Real for f32 {
         f32_math::fract(self)
     }
     #[inline(always)]
-    fn exp2_nonpositive(self) -> Self {
-        f32_math::exp2_nonpositive(self)
+    fn exp2_nonpositive(self, factor: Self) -> Self {
+        f32_math::exp2_nonpositive(self, factor)
     }
     #[inline(always)]
     fn exp_m1_nonpositive(self) -> Self {
@@ -219,6 +241,10 @@ impl Real for f32 {
     #[inline(always)]
     fn log2_power(self, exponent: Self, part: Self, whole: Self) -> Self {
         f32_math::log2_power(exponent, self, part, whole)
+    }
+    #[inline(always)]
+    fn mul_add(self, factor: Self, summand: Self) -> Self {
+        mul_add!(self, factor, summand)
     }
     #[inline(always)]
     fn sin_cos(self) -> (Self, Self) {

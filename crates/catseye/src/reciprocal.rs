@@ -2,7 +2,8 @@
 
 use crate::compensation::Compensation;
 use crate::disk::{Disk, above_horizon, is_above_horizon};
-use crate::{Component, Lobe, LobeVisitor, ParamError, Params, Real, Sample, Vec3};
+use crate::lobe::LobeVisitor;
+use crate::{Component, Lobe, ParamError, Params, Real, Sample, Vec3};
 
 /// The BSDF of the `retro_reflective_bsdf` node: Edwards' lobe made reciprocal, plus the compensation of the energy
 /// it loses.
@@ -23,19 +24,8 @@ pub struct Reciprocal<T> {
     disk: Option<Disk<T>>,
     compensation: Compensation<T>,
     params: Params<T>,
-    /// Means of the tints over the channels, which lobes are chosen by.
-    single: T,
-    multiple: T,
-}
-
-/// How `sample` divides its samples: a disk sample of acceptance weight w is kept with the probability
-/// `base + slope w`, and the rest goes to the compensation.
-#[derive(Clone, Copy, Debug)]
-struct Split<T> {
-    base: T,
-    slope: T,
-    /// Probability of the compensation.
-    multiple: T,
+    /// Means of `tint` and `multiscatter_tint` over the channels, which the lobes are chosen by.
+    energies: [T; 2],
 }
 
 impl<T: Real> Reciprocal<T> {
@@ -51,8 +41,7 @@ impl<T: Real> Reciprocal<T> {
             disk,
             compensation: Compensation::new(disk.map_or([T::ONE; 2], |disk| [disk.m_u, disk.m_v])),
             params: *params,
-            single: mean(params.tint),
-            multiple: mean(params.multiscatter_tint),
+            energies: [mean(params.tint), mean(params.multiscatter_tint)],
         })
     }
 
@@ -64,136 +53,154 @@ impl<T: Real> Reciprocal<T> {
         self.params.albedo(T::ONE - loss)
     }
 
-    /// The split for a direction that loses the share `loss`: in proportion to the energy of both lobes.
+    /// Calls `visitor` with the lobe's decisions made.
     #[inline(always)]
-    fn split(&self, loss: T) -> Split<T> {
-        let kept = T::ONE - loss;
-        let energy = self.multiple + (self.single - self.multiple) * kept;
-        // With as much tint as compensation, base = 0 and slope = 1 make f cos itself the density of what is kept.
-        // More tint keeps some of the rejected samples, less tint rejects some of the accepted ones.
-        let least = self.single.min(self.multiple);
-        let slope = (least / energy.max(T::from_f64(1e-30))).min(T::ONE);
-        let less_tint = self.single < self.multiple;
-        let base = if less_tint { T::ZERO } else { T::ONE - slope };
-        let rejected = if less_tint { T::ONE - slope } else { T::ZERO };
-        Split { base, slope, multiple: rejected + slope * loss }
+    fn decided<V: LobeVisitor<T>>(&self, visitor: V) -> V::Output {
+        match (self.energies[1] > T::ZERO, self.compensation.is_isotropic()) {
+            (false, true) => visitor.visit(Form::<T, false, true>(self)),
+            (false, false) => visitor.visit(Form::<T, false, false>(self)),
+            (true, true) => visitor.visit(Form::<T, true, true>(self)),
+            (true, false) => visitor.visit(Form::<T, true, false>(self)),
+        }
     }
+}
 
-    /// BSDF and density for two directions above the horizon, given the disk's power for them.
+/// f of single scattering without its tint, in 1/sr, and the density of disk samples per steradian, for the lump B.
+#[inline(always)]
+fn single<T: Real>(lump: T, wo: Vec3<T>, wi: Vec3<T>) -> (T, T) {
+    // All quotients come from one division, in factors that stay in range. They are finished while the lump is still
+    // being computed.
+    let (sum, product, low) = (wo.z + wi.z, wo.z * wi.z, wo.z.min(wi.z));
+    let inv = T::ONE / (sum * product);
+    let steep = low * inv;
+    let f = lump * ((low * sum) * (steep * steep)); // B min(z_o, z_i) / (max(z_o, z_i)^2 (z_o + z_i))
+    let pdf = lump * (inv * (wo.z * wo.z)); // B z_o / (z_i (z_o + z_i))
+    (f, pdf)
+}
+
+/// f of the compensation without its tint, in 1/sr, and the lobe q of its samples, whose density is q cos; `loss_o` is
+/// what single scattering loses along the outgoing direction.
+#[inline(always)]
+fn multiple<T: Real, const ISOTROPIC: bool>(
+    compensation: &Compensation<T>,
+    loss_o: T,
+    wi: Vec3<T>,
+) -> (T, T) {
+    let q = compensation.loss::<ISOTROPIC>(wi) * compensation.norm; // (1 - rho(i)) / (pi (1 - rho_avg))
+    (loss_o * q, q) // (1 - rho(o)) (1 - rho(i)) / (pi (1 - rho_avg))
+}
+
+/// How samples are divided for an outgoing direction: a disk sample that single scattering accepts with the
+/// probability w is kept with the probability `base + slope w`, and the rest goes to the compensation.
+#[derive(Clone, Copy, Debug)]
+struct Split<T> {
+    base: T,
+    slope: T,
+    /// Probability of the compensation.
+    multiple: T,
+}
+
+/// The split for a direction that loses the share `loss`: in proportion to the energy of both lobes.
+#[inline(always)]
+fn split<T: Real>([single, multiple]: [T; 2], loss: T) -> Split<T> {
+    let energy = single + (multiple - single) * loss; // single rho + multiple (1 - rho)
+    // With as much tint as compensation, base = 0 and slope = 1 make f cos itself the density of what is kept.
+    // More tint keeps some of the rejected samples, less tint rejects some of the accepted ones.
+    let slope = (single.min(multiple) / energy.max(T::from_f64(1e-30))).min(T::ONE);
+    let less_tint = single < multiple;
+    let base = if less_tint { T::ZERO } else { T::ONE - slope };
+    let rejected = if less_tint { T::ONE - slope } else { T::ZERO };
+    Split { base, slope, multiple: rejected + slope * loss }
+}
+
+/// The lobe with its decisions made: whether it is compensated, and whether it is isotropic.
+#[derive(Clone, Copy, Debug)]
+struct Form<'a, T, const COMPENSATED: bool, const ISOTROPIC: bool>(&'a Reciprocal<T>);
+
+impl<T: Real, const COMPENSATED: bool, const ISOTROPIC: bool> Form<'_, T, COMPENSATED, ISOTROPIC> {
+    /// BSDF and density for two directions above the horizon and their lump.
     #[inline(always)]
-    fn eval_pdf_with<const COMPENSATED: bool, const ISOTROPIC: bool>(
-        &self,
-        norm: T,
-        power: T,
-        wo: Vec3<T>,
-        wi: Vec3<T>,
-    ) -> ([T; 3], T) {
-        // All quotients come from one division, in factors that stay in range; low / high^2 is
-        // low sum (low / product)^2 / sum. They are finished while the power is still being computed.
-        let (sum, product, low) = (wo.z + wi.z, wo.z * wi.z, wo.z.min(wi.z));
-        let inv = T::ONE / (sum * product);
-        let steep = low * inv;
-        let f = power * (norm * (low * sum) * (steep * steep));
-        let pdf_single = power * (norm * inv * (wo.z * wo.z));
+    fn combine(&self, lump: T, wo: Vec3<T>, wi: Vec3<T>) -> ([T; 3], T) {
+        let Reciprocal { compensation, params, energies, .. } = self.0;
+        let (f, pdf_disk) = single(lump, wo, wi);
         if !COMPENSATED {
-            return (self.params.tint.map(|t| t * f), pdf_single);
+            return (params.tint.map(|t| t * f), pdf_disk);
         }
-        let loss_o = self.compensation.loss::<ISOTROPIC>(wo);
-        let q = self.compensation.lobe::<ISOTROPIC>(wi);
-        let split = self.split(loss_o);
-        let f_ms = loss_o * q;
-        let [t, m] = [self.params.tint, self.params.multiscatter_tint];
+        let loss = compensation.loss::<ISOTROPIC>(wo);
+        let (f_ms, q) = multiple::<T, ISOTROPIC>(compensation, loss, wi);
+        let [t, m] = [params.tint, params.multiscatter_tint];
         let total = [t[0] * f + m[0] * f_ms, t[1] * f + m[1] * f_ms, t[2] * f + m[2] * f_ms];
-        let pdf = split.base * pdf_single + (split.slope * f + split.multiple * q) * wi.z;
-        (total, pdf)
+        let split = split(*energies, loss);
+        (total, split.base * pdf_disk + (split.slope * f + split.multiple * q) * wi.z)
     }
 
+    /// Edwards' sample, weighted by the quotient of f cos and its density.
     #[inline(always)]
-    fn eval_pdf_as<const COMPENSATED: bool, const ISOTROPIC: bool>(
-        &self,
-        wo: Vec3<T>,
-        wi: Vec3<T>,
-    ) -> ([T; 3], T) {
-        let Some(disk) = &self.disk else { return ([T::ZERO; 3], T::ZERO) };
-        if !above_horizon(wo, wi) {
-            return ([T::ZERO; 3], T::ZERO);
-        }
-        self.eval_pdf_with::<COMPENSATED, ISOTROPIC>(disk.norm, disk.power::<ISOTROPIC>(wo, wi), wo, wi)
-    }
-
-    #[inline(always)]
-    fn sample_as<const COMPENSATED: bool, const ISOTROPIC: bool>(
-        &self,
-        wo: Vec3<T>,
-        [u1, u2, u3]: [T; 3],
-    ) -> Option<Sample<T>> {
-        if !is_above_horizon(wo) {
+    fn sample_single(&self, disk: &Disk<T>, wo: Vec3<T>, [u1, u2, _]: [T; 3]) -> Option<Sample<T>> {
+        let drawn = disk.sample::<ISOTROPIC>(wo, u1, u2);
+        if !above_horizon(wo, drawn.wi) {
             return None;
         }
-        let Some(disk) = &self.disk else {
-            return Some(Sample {
-                wi: wo,
-                weight: self.params.tint,
-                pdf: T::ONE,
-                component: Component::Dirac,
-            });
-        };
-        let mut drawn = disk.sample(wo, u1, u2);
+        let accepted = acceptance(drawn.ratio);
+        let weight = self.0.params.tint.map(|t| t * accepted);
+        Some(Sample { wi: drawn.wi, weight, pdf: drawn.density(), component: Component::Single })
+    }
+
+    /// Edwards' sample where it is kept, and a sample of the compensation where it is not.
+    #[inline(always)]
+    fn sample_compensated(&self, disk: &Disk<T>, wo: Vec3<T>, [u1, u2, u3]: [T; 3]) -> Option<Sample<T>> {
+        let Reciprocal { compensation, energies, .. } = self.0;
+        // Draw from the disk.
+        let mut drawn = disk.sample::<ISOTROPIC>(wo, u1, u2);
         let mut component = Component::Single;
-        // The quotient of f cos and the density drawn from is min(1, z_i/z_o)^3.
-        let ratio = (drawn.wi.z / wo.z).min(T::ONE);
-        if !COMPENSATED {
-            if !above_horizon(wo, drawn.wi) {
-                return None;
-            }
-            let pdf = disk.density(drawn.power, wo, drawn.wi);
-            let weight = self.params.tint.map(|t| t * (ratio * ratio * ratio));
-            return Some(Sample { wi: drawn.wi, weight, pdf, component });
-        }
-        let split = self.split(self.compensation.loss::<ISOTROPIC>(wo));
-        let keep = split.base + split.slope * (ratio * ratio * ratio);
+        // Decide whether it is kept.
+        let split = split(*energies, compensation.loss::<ISOTROPIC>(wo));
+        let keep = split.base + split.slope * acceptance(drawn.ratio);
+        // Draw from the compensation instead, with what the decision has left of u3.
         if u3 >= keep {
             let fresh = ((u3 - keep) / (T::ONE - keep)).min(T::ONE);
-            drawn.wi = self.compensation.sample::<ISOTROPIC>(fresh, u1);
-            drawn.power = disk.power::<ISOTROPIC>(wo, drawn.wi);
+            drawn.wi = compensation.sample::<ISOTROPIC>(fresh, u1);
+            drawn.lump = disk.lump::<ISOTROPIC>(wo, drawn.wi);
             component = Component::Multiple;
         }
         if !above_horizon(wo, drawn.wi) {
             return None;
         }
-        let (f, pdf) = self.eval_pdf_with::<COMPENSATED, ISOTROPIC>(disk.norm, drawn.power, wo, drawn.wi);
+        // Weigh by both together.
+        let (f, pdf) = self.combine(drawn.lump, wo, drawn.wi);
         let scale = drawn.wi.z / pdf;
         Some(Sample { wi: drawn.wi, weight: f.map(|f| f * scale), pdf, component })
     }
-
-    #[inline(always)]
-    fn is_compensated(&self) -> bool {
-        self.multiple > T::ZERO
-    }
 }
 
-/// The lobe with its decisions made: whether it is compensated, and whether it is isotropic.
-#[derive(Clone, Copy, Debug)]
-struct Form<T, const COMPENSATED: bool, const ISOTROPIC: bool>(Reciprocal<T>);
+/// The quotient of f cos and the density of disk samples, given `z_i / z_o`.
+#[inline(always)]
+fn acceptance<T: Real>(ratio: T) -> T {
+    let ratio = ratio.min(T::ONE);
+    ratio * ratio * ratio // min(1, z_i/z_o)^3
+}
 
-impl<T: Real> Lobe<T> for Reciprocal<T> {
+impl<T: Real, const COMPENSATED: bool, const ISOTROPIC: bool> Lobe<T>
+    for Form<'_, T, COMPENSATED, ISOTROPIC>
+{
     #[inline(always)]
     fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> ([T; 3], T) {
-        match (self.is_compensated(), self.compensation.is_isotropic()) {
-            (false, true) => self.eval_pdf_as::<false, true>(wo, wi),
-            (false, false) => self.eval_pdf_as::<false, false>(wo, wi),
-            (true, true) => self.eval_pdf_as::<true, true>(wo, wi),
-            (true, false) => self.eval_pdf_as::<true, false>(wo, wi),
+        let Some(disk) = &self.0.disk else { return ([T::ZERO; 3], T::ZERO) };
+        if !above_horizon(wo, wi) {
+            return ([T::ZERO; 3], T::ZERO);
         }
+        self.combine(disk.lump::<ISOTROPIC>(wo, wi), wo, wi)
     }
 
     #[inline(always)]
     fn sample(&self, wo: Vec3<T>, u: [T; 3]) -> Option<Sample<T>> {
-        match (self.is_compensated(), self.compensation.is_isotropic()) {
-            (false, true) => self.sample_as::<false, true>(wo, u),
-            (false, false) => self.sample_as::<false, false>(wo, u),
-            (true, true) => self.sample_as::<true, true>(wo, u),
-            (true, false) => self.sample_as::<true, false>(wo, u),
+        if !is_above_horizon(wo) {
+            return None;
+        }
+        match &self.0.disk {
+            None => Some(Sample::dirac(wo, self.0.params.tint)),
+            Some(disk) if COMPENSATED => self.sample_compensated(disk, wo, u),
+            Some(disk) => self.sample_single(disk, wo, u),
         }
     }
 
@@ -202,8 +209,30 @@ impl<T: Real> Lobe<T> for Reciprocal<T> {
         if !is_above_horizon(wo) {
             return [T::ZERO; 3];
         }
-        let loss = if self.disk.is_some() { self.compensation.loss::<false>(wo) } else { T::ZERO };
-        self.params.albedo(T::ONE - loss)
+        let Reciprocal { disk, compensation, params, .. } = self.0;
+        let loss = if disk.is_some() { compensation.loss::<ISOTROPIC>(wo) } else { T::ZERO };
+        params.albedo(T::ONE - loss)
+    }
+
+    fn is_dirac(&self) -> bool {
+        self.0.disk.is_none()
+    }
+}
+
+impl<T: Real> Lobe<T> for Reciprocal<T> {
+    #[inline(always)]
+    fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> ([T; 3], T) {
+        self.decided(EvalPdf(wo, wi))
+    }
+
+    #[inline(always)]
+    fn sample(&self, wo: Vec3<T>, u: [T; 3]) -> Option<Sample<T>> {
+        self.decided(Draw(wo, u))
+    }
+
+    #[inline]
+    fn albedo(&self, wo: Vec3<T>) -> [T; 3] {
+        Form::<T, true, false>(self).albedo(wo)
     }
 
     fn is_dirac(&self) -> bool {
@@ -211,33 +240,28 @@ impl<T: Real> Lobe<T> for Reciprocal<T> {
     }
 
     #[inline(always)]
-    fn specialize<V: LobeVisitor<T>>(&self, visitor: V) {
-        match (self.is_compensated(), self.compensation.is_isotropic()) {
-            (false, true) => visitor.visit(Form::<T, false, true>(*self)),
-            (false, false) => visitor.visit(Form::<T, false, false>(*self)),
-            (true, true) => visitor.visit(Form::<T, true, true>(*self)),
-            (true, false) => visitor.visit(Form::<T, true, false>(*self)),
-        }
+    fn specialize<V: LobeVisitor<T>>(&self, visitor: V) -> V::Output {
+        // A copy of its own, for loops: the compiler knows that nothing changes it, and may read it at any time.
+        let lobe = *self;
+        lobe.decided(visitor)
     }
 }
 
-impl<T: Real, const COMPENSATED: bool, const ISOTROPIC: bool> Lobe<T> for Form<T, COMPENSATED, ISOTROPIC> {
+struct EvalPdf<T>(Vec3<T>, Vec3<T>);
+struct Draw<T>(Vec3<T>, [T; 3]);
+
+impl<T: Real> LobeVisitor<T> for EvalPdf<T> {
+    type Output = ([T; 3], T);
     #[inline(always)]
-    fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> ([T; 3], T) {
-        self.0.eval_pdf_as::<COMPENSATED, ISOTROPIC>(wo, wi)
+    fn visit<L: Lobe<T> + Copy>(self, lobe: L) -> Self::Output {
+        lobe.eval_pdf(self.0, self.1)
     }
+}
 
+impl<T: Real> LobeVisitor<T> for Draw<T> {
+    type Output = Option<Sample<T>>;
     #[inline(always)]
-    fn sample(&self, wo: Vec3<T>, u: [T; 3]) -> Option<Sample<T>> {
-        self.0.sample_as::<COMPENSATED, ISOTROPIC>(wo, u)
-    }
-
-    #[inline]
-    fn albedo(&self, wo: Vec3<T>) -> [T; 3] {
-        self.0.albedo(wo)
-    }
-
-    fn is_dirac(&self) -> bool {
-        self.0.is_dirac()
+    fn visit<L: Lobe<T> + Copy>(self, lobe: L) -> Self::Output {
+        lobe.sample(self.0, self.1)
     }
 }

@@ -8,10 +8,15 @@ use super::gauss::Gauss;
 use crate::disk::{above_horizon, is_above_horizon, widths};
 use crate::{Real, Vec3};
 
+/// Nodes of the rule along the radius of the disk.
+const ALONG: usize = 48;
+
 /// The quadrature rules, prepared once for many evaluations.
 #[derive(Clone, Debug)]
 pub struct Quadrature {
-    along: Gauss<48>,
+    along: Gauss<ALONG>,
+    /// `3 ln(1 - v^2)` at the nodes v along the radius, half of what an evaluation costs.
+    logs: [f64; ALONG],
     around: Gauss<32>,
 }
 
@@ -25,7 +30,20 @@ impl Quadrature {
     /// Computes the nodes.
     #[must_use]
     pub fn new() -> Self {
-        Self { along: Gauss::new(), around: Gauss::new() }
+        let along = Gauss::new();
+        let logs = along.nodes.map(|v: f64| 3.0 * (v * v).ln_one_minus(1.0 - v * v));
+        Self { along, logs, around: Gauss::new() }
+    }
+
+    /// Calls `body` with rules that are prepared once for the whole process, or each time without `std`.
+    fn shared<R>(body: impl FnOnce(&Self) -> R) -> R {
+        #[cfg(feature = "std")]
+        {
+            static SHARED: std::sync::LazyLock<Quadrature> = std::sync::LazyLock::new(Quadrature::new);
+            body(&SHARED)
+        }
+        #[cfg(not(feature = "std"))]
+        body(&Self::new())
     }
 
     /// `1 - g(c, n)`: the share that single scattering loses when the disk offset d has the fixed azimuth whose
@@ -43,10 +61,11 @@ impl Quadrature {
         }
         let top = 1.0 + top_ln.exp_m1_nonpositive();
         // q = top (1-v^2)^3 resolves the square root of t at one end and the power of q at the other.
+        let mut logs = self.logs.iter();
         self.along.integrate(0.0, 1.0, |v| {
-            let v2 = v * v;
-            let rest = 1.0 - v2;
-            let t = -((top_ln + 3.0 * v2.ln_one_minus(rest)) * m2).exp_m1_nonpositive();
+            let rest = 1.0 - v * v;
+            let log = logs.next().copied().unwrap_or_default();
+            let t = -((top_ln + log) * m2).exp_m1_nonpositive();
             let ratio = (1.0 - t) / (1.0 + t + 2.0 * c * Real::sqrt(t));
             let kept = ratio.min(1.0);
             6.0 * top * v * rest * rest * (1.0 - kept * kept * kept)
@@ -120,13 +139,13 @@ pub fn directional(roughness: [f64; 2], wo: Vec3<f64>) -> f64 {
     if !is_above_horizon(wo) {
         return 0.0;
     }
-    widths(roughness).map_or(1.0, |m| 1.0 - Quadrature::new().loss(m, [wo.x, wo.y]))
+    widths(roughness).map_or(1.0, |m| 1.0 - Quadrature::shared(|rule| rule.loss(m, [wo.x, wo.y])))
 }
 
 /// Cosine-weighted hemispherical mean `rho_avg` of the directional albedo; error below 1e-9.
 #[must_use]
 pub fn average(roughness: [f64; 2]) -> f64 {
-    widths(roughness).map_or(1.0, |m| 1.0 - Quadrature::new().average_loss(m))
+    widths(roughness).map_or(1.0, |m| 1.0 - Quadrature::shared(|rule| rule.average_loss(m)))
 }
 
 /// The compensation `f_ms(o,i) = (1-rho(o)) (1-rho(i)) / (pi (1-rho_avg))` in 1/sr, for a multiscatter tint of 1.
@@ -138,6 +157,7 @@ pub fn compensation(roughness: [f64; 2], wo: Vec3<f64>, wi: Vec3<f64>) -> f64 {
     if !above_horizon(wo, wi) {
         return 0.0;
     }
-    let rule = Quadrature::new();
-    rule.loss(m, [wo.x, wo.y]) * rule.loss(m, [wi.x, wi.y]) / (PI * rule.average_loss(m))
+    Quadrature::shared(|rule| {
+        rule.loss(m, [wo.x, wo.y]) * rule.loss(m, [wi.x, wi.y]) / (PI * rule.average_loss(m))
+    })
 }

@@ -55,7 +55,6 @@ impl<T: Real> CompactFit<T> {
 }
 
 impl<T: Real, const A: usize, const B: usize, const C: usize, const D: usize> Fit<T, A, B, C, D> {
-    /// Contracts the table `[a][b][coefficient]` with the Chebyshev polynomials of the widths.
     fn from_table<const N_M: usize, const N_K: usize, const N: usize>(
         table: &[[[f32; N]; N_K]; N_M],
         kappa: f32,
@@ -63,17 +62,8 @@ impl<T: Real, const A: usize, const B: usize, const C: usize, const D: usize> Fi
     ) -> Self {
         let m = m_u.max(m_v);
         let k = m_u.min(m_v) / m;
-        let (t_m, t_k) = (chebyshev::<T, N_M>(m), chebyshev::<T, N_K>(k));
-        let mut coefficients = [T::ZERO; N];
-        for (rows, t_m) in table.iter().zip(t_m) {
-            let t_m = t_m * m;
-            for (row, t_k) in rows.iter().zip(t_k) {
-                let factor = t_m * t_k;
-                for (sum, &entry) in coefficients.iter_mut().zip(row) {
-                    *sum += factor * T::from_f32(entry);
-                }
-            }
-        }
+        let coefficients =
+            if k == T::ONE { contract_isotropic::<_, A, _, _, _>(table, m) } else { contract(table, m, k) };
         let mut coefficients = coefficients.into_iter();
         let mut next = || coefficients.next().unwrap_or(T::ZERO);
         let (k2, rest) = (k * k, T::ONE - k * k);
@@ -104,12 +94,19 @@ impl<T: Real, const A: usize, const B: usize, const C: usize, const D: usize> Fi
     pub(crate) fn loss_as<const ISOTROPIC: bool>(&self, x: T, y: T) -> T {
         let (x2, y2) = (x * x, y * y);
         let e = (self.e_x * x2 + self.e_y * y2 + self.e_0).sqrt() - T::from_f64(CENTRE);
-        let mut loss = horner(&self.p0, e);
-        if !ISOTROPIC {
-            let w = self.w_x * x2 + self.w_y * y2;
-            loss += w * (horner(&self.p1, e) + w * (horner(&self.p2, e) + w * horner(&self.p3, e)));
+        let w = if ISOTROPIC { T::ZERO } else { self.w_x * x2 + self.w_y * y2 };
+        self.polynomial::<ISOTROPIC>(e, w).max(T::ZERO).min(T::ONE)
+    }
+
+    /// `P0(e') + w P1(e') + w^2 P2(e') + w^3 P3(e')`
+    #[inline(always)]
+    fn polynomial<const ISOTROPIC: bool>(&self, e: T, w: T) -> T {
+        if ISOTROPIC {
+            return horner(&self.p0, e);
         }
-        loss.max(T::ZERO).min(T::ONE)
+        let [p0, p1] = [horner(&self.p0, e), horner(&self.p1, e)];
+        let [p2, p3] = [horner(&self.p2, e), horner(&self.p3, e)];
+        w.mul_add(w.mul_add(w.mul_add(p3, p2), p1), p0)
     }
 }
 
@@ -118,6 +115,41 @@ impl<T: Real> FastFit<T> {
     #[inline(always)]
     pub(crate) fn in_frame(&self, [wider, narrower]: [T; 2]) -> [T; 2] {
         if self.e_x < self.e_y { [narrower, wider] } else { [wider, narrower] }
+    }
+
+    /// The integral of `loss s ds` along the ray of azimuth (x, y), a unit vector in the plane, s being the sine.
+    ///
+    /// In t, see [`Ray`], the integrand is a polynomial of degree 9: five Gauss points are exact.
+    #[inline(always)]
+    pub(crate) fn energy(&self, [x, y]: [T; 2]) -> T {
+        const NODES: [f64; 5] = [
+            -0.906_179_845_938_664,
+            -0.538_469_310_105_683_1,
+            0.0,
+            0.538_469_310_105_683_1,
+            0.906_179_845_938_664,
+        ];
+        const WEIGHTS: [f64; 5] = [
+            0.236_926_885_056_189_08,
+            0.478_628_670_499_366_5,
+            0.568_888_888_888_888_9,
+            0.478_628_670_499_366_5,
+            0.236_926_885_056_189_08,
+        ];
+        let (x2, y2) = (x * x, y * y);
+        let b = self.e_x * x2 + self.e_y * y2;
+        let (first, last) = (self.e_0.sqrt(), (b + self.e_0).sqrt());
+        let inv_sum = T::ONE / (first + last);
+        let [start, range] = [first * inv_sum, b * inv_sum * inv_sum];
+        let factor = self.w_x * x2 + self.w_y * y2;
+        let mut sum = T::ZERO;
+        for (node, weight) in NODES.into_iter().zip(WEIGHTS) {
+            let t = T::from_f64(0.5 + 0.5 * node);
+            let e = first + b * inv_sum * t - T::from_f64(CENTRE);
+            let w = factor * (t * (T::TWO * start + range * t));
+            sum += T::from_f64(0.5 * weight) * ((start + range * t) * self.polynomial::<false>(e, w));
+        }
+        sum
     }
 
     /// The loss along the ray of azimuth (x, y), a unit vector in the plane.
@@ -155,47 +187,59 @@ pub(crate) struct Ray<T> {
     cumulated: [T; 10],
     first: T,
     range: T,
+    /// The integral over the whole ray.
+    pub(crate) energy: T,
+    /// The share of `u^(3/4)` in the first guess of `s^2`, beside u.
+    bend: T,
 }
 
-/// Newton steps to invert the radial distribution. The start is within a factor of 2 and each step squares the error.
-const NEWTON_STEPS: usize = 3;
+/// What keeps a quotient finite that is 0 / 0.
+const TINY: f64 = 1e-12;
 
 impl<T: Real> Ray<T> {
     #[inline(always)]
     fn new(loss: [T; 9], first: T, range: T) -> Self {
         // s ds = (first + range t) dt
-        let mut density = [T::ZERO; 10];
-        for (j, &c) in loss.iter().enumerate() {
-            density[j] += first * c;
-            density[j + 1] += range * c;
+        let mut density = [first * loss[0]; 10];
+        for j in 1..9 {
+            density[j] = first.mul_add(loss[j], range * loss[j - 1]);
         }
+        density[9] = range * loss[8];
         let mut cumulated = density;
         for (j, c) in cumulated.iter_mut().enumerate() {
             *c *= T::from_f64(1.0 / (j + 1) as f64);
         }
-        Self { density, cumulated, first, range }
+        let energy = horner(&cumulated, T::ONE);
+        // At the horizon d(s^2)/du is 2 energy / loss, between 2/3 where the loss is proportional to s and 1 where it is
+        // constant; that of the guess is 1 - bend / 4.
+        let slope = T::TWO * energy * (first + range) / horner(&density, T::ONE).max(T::from_f64(TINY));
+        let bend = (T::from_f64(4.0) * (T::ONE - slope)).max(T::ZERO).min(T::from_f64(1.4));
+        Self { density, cumulated, first, range, energy, bend }
     }
 
-    /// The integral of `loss s ds` over the ray.
-    #[inline(always)]
-    pub(crate) fn energy(&self) -> T {
-        horner(&self.cumulated, T::ONE)
-    }
-
-    /// The squared sine below which lies the share u of the energy.
+    /// The squared sine below which lies the share u of the energy: a step of Newton's method and one of higher order,
+    /// to 4e-7 of the energy.
     #[inline(always)]
     pub(crate) fn sample_squared_sine(&self, u: T) -> T {
-        let target = u * self.energy();
-        // Start from s^2 between u, right for a constant loss, and u^(2/3), right for one proportional to s.
         let root = u.sqrt();
-        let start = root * root.sqrt();
-        let mut t = start / (self.first + (self.first * self.first + self.range * start).sqrt());
-        for _ in 0..NEWTON_STEPS {
-            let excess = t * horner(&self.cumulated, t) - target;
-            t -= excess / horner(&self.density, t).max(T::from_f64(1e-12));
-            t = t.max(T::ZERO).min(T::ONE);
-        }
+        let s2 = root * (root + self.bend * (root.sqrt() - root));
+        let t0 = s2 / (self.first + (self.first * self.first + self.range * s2).sqrt());
+        let (newton, density_0) = self.step(t0, u);
+        let t1 = (t0 - newton).max(T::ZERO).min(T::ONE);
+        let (newton, density_1) = self.step(t1, u);
+        // The second derivative comes from the change of the density over the first step.
+        let change = (density_1 - density_0) * newton;
+        let over = T::TWO * density_1 * (t1 - t0);
+        let curved = if over == T::ZERO { T::ZERO } else { newton * (change / over) };
+        let t = (t1 - newton - curved).max(T::ZERO).min(T::ONE);
         (t * (T::TWO * self.first + self.range * t)).min(T::ONE)
+    }
+
+    /// Newton's step from t towards the share u of the energy, to be subtracted, and the density at t.
+    #[inline(always)]
+    fn step(&self, t: T, u: T) -> (T, T) {
+        let density = horner(&self.density, t).max(T::from_f64(TINY));
+        ((t * horner(&self.cumulated, t) - u * self.energy) / density, density)
     }
 }
 
@@ -232,6 +276,47 @@ fn add_product<T: Real, const N: usize, const M: usize, const R: usize>(
     sum
 }
 
+/// The coefficients of the fit: the table `[a][b][coefficient]` times m and the Chebyshev polynomials of the width m and
+/// of the ratio k.
+fn contract<T: Real, const N_M: usize, const N_K: usize, const N: usize>(
+    table: &[[[f32; N]; N_K]; N_M],
+    m: T,
+    k: T,
+) -> [T; N] {
+    let (t_m, t_k) = (chebyshev::<T, N_M>(m), chebyshev::<T, N_K>(k));
+    let mut coefficients = [T::ZERO; N];
+    for (rows, t_m) in table.iter().zip(t_m) {
+        for (row, t_k) in rows.iter().zip(t_k) {
+            let factor = m * t_m * t_k;
+            for (sum, &entry) in coefficients.iter_mut().zip(row) {
+                *sum += factor * T::from_f32(entry);
+            }
+        }
+    }
+    coefficients
+}
+
+/// The same for a ratio of 1, where all Chebyshev polynomials are 1, as far as w = 0 leaves the coefficients a meaning:
+/// the `N_0` of P0.
+fn contract_isotropic<T: Real, const N_0: usize, const N_M: usize, const N_K: usize, const N: usize>(
+    table: &[[[f32; N]; N_K]; N_M],
+    m: T,
+) -> [T; N] {
+    let mut coefficients = [T::ZERO; N];
+    for (rows, t_m) in table.iter().zip(chebyshev::<T, N_M>(m)) {
+        let mut sums = [T::ZERO; N_0];
+        for row in rows {
+            for (sum, &entry) in sums.iter_mut().zip(row) {
+                *sum += T::from_f32(entry);
+            }
+        }
+        for (coefficient, sum) in coefficients.iter_mut().zip(sums) {
+            *coefficient += m * t_m * sum;
+        }
+    }
+    coefficients
+}
+
 /// Chebyshev polynomials `T_0 ... T_(N-1)` at `2 x - 1`.
 fn chebyshev<T: Real, const N: usize>(x: T) -> [T; N] {
     let x = x + x - T::ONE;
@@ -245,16 +330,16 @@ fn chebyshev<T: Real, const N: usize>(x: T) -> [T; N] {
 /// The polynomial with the given coefficients, lowest first; its even and odd parts are independent chains.
 #[inline(always)]
 fn horner<T: Real, const N: usize>(coefficients: &[T; N], x: T) -> T {
-    let x2 = x * x;
-    let (mut even, mut odd) = (T::ZERO, T::ZERO);
-    for (j, &c) in coefficients.iter().enumerate().rev() {
-        if j % 2 == 0 {
-            even = even * x2 + c;
-        } else {
-            odd = odd * x2 + c;
-        }
+    if N < 2 {
+        return coefficients.first().copied().unwrap_or(T::ZERO);
     }
-    even + x * odd
+    let x2 = x * x;
+    // The last two coefficients begin the chains of their parities.
+    let [mut next, mut last] = [coefficients[N - 2], coefficients[N - 1]];
+    for &c in coefficients[..N - 2].iter().rev() {
+        [next, last] = [last.mul_add(x2, c), next];
+    }
+    last.mul_add(x, next)
 }
 
 #[cfg(test)]
@@ -276,7 +361,7 @@ mod tests {
                         let u = (f64::from(i) + 0.5) / 1000.0;
                         let s2 = ray.sample_squared_sine(u);
                         let t = s2 / (ray.first + (ray.first * ray.first + ray.range * s2).sqrt());
-                        worst = worst.max((t * horner(&ray.cumulated, t) / ray.energy() - u).abs());
+                        worst = worst.max((t * horner(&ray.cumulated, t) / ray.energy - u).abs());
                     }
                 }
             }

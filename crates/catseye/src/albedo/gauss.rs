@@ -5,7 +5,7 @@ use crate::Real;
 /// Nodes and weights of the `N`-point rule on `[0, 1]`.
 #[derive(Clone, Debug)]
 pub(crate) struct Gauss<const N: usize> {
-    nodes: [f64; N],
+    pub(crate) nodes: [f64; N],
     weights: [f64; N],
 }
 
