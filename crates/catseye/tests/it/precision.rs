@@ -1,9 +1,7 @@
 //! Single precision against double precision on the same inputs, where the lobe is narrow.
 
-mod common;
-
+use crate::common::{Random, directions, to_f32};
 use catseye::{Lobe as _, Params, Reciprocal, Vec3};
-use common::{Random, directions, to_f32};
 
 /// Largest relative error of f and pdf over pairs inside the lobe: those within 1e-6 of its peak.
 fn worst(roughness: [f64; 2], multiscatter_tint: f64) -> Option<f64> {

@@ -1,9 +1,7 @@
 //! f(o, i) = f(i, o): exactly for single scattering, and for the compensation.
 
-mod common;
-
+use crate::common::Random;
 use catseye::{BackVector, Edwards, Lobe as _, Params, Reciprocal};
-use common::Random;
 
 #[test]
 fn reciprocal() {

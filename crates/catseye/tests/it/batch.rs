@@ -1,11 +1,8 @@
 //! The batch interface answers like the scalar one, bit for bit, for every lobe, precision and length.
-#![cfg(feature = "simd")]
 
-mod common;
-
+use crate::common::Random;
 use catseye::batch::{self, SampleSlices};
 use catseye::{AnyLobe, Component, Lobe, Model, Params, Real, Vec3};
-use common::Random;
 
 /// Nine columns: wo, wi and uniform numbers, among them directions below the horizon and NaN.
 fn columns<T: Real>(n: usize) -> Vec<Vec<T>> {

@@ -1,10 +1,8 @@
 //! Energy: in a white furnace the lobe with both tints 1 returns 1, and no lobe returns more than it receives.
 
-mod common;
-
+use crate::common::{ROUGHNESS, Random, directions, to_f32};
 use catseye::albedo::exact;
 use catseye::{AnyLobe, BackVector, Edwards, Lobe, Model, Params, Reciprocal, Vec3};
-use common::{ROUGHNESS, Random, directions, to_f32};
 
 /// Mean weight over a regular grid of uniform numbers.
 fn by_sampling(lobe: &impl Lobe<f64>, wo: Vec3<f64>) -> f64 {

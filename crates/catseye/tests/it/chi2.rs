@@ -1,12 +1,10 @@
 //! Samples follow the density that `pdf` states: Pearson's chi-square test, all lobes, with Sidak's correction.
 
-mod common;
-
 use std::f64::consts::TAU;
 use std::fmt::Write as _;
 
+use crate::common::{ROUGHNESS, Random, directions, to_f32};
 use catseye::{AnyLobe, Lobe as _, Model, Params, Vec3, width};
-use common::{ROUGHNESS, Random, directions, to_f32};
 use statrs::distribution::{ChiSquared, ContinuousCDF as _};
 
 /// Probability of a false alarm in the whole file.

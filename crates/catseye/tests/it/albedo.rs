@@ -1,11 +1,9 @@
 //! The albedo in its three forms: closed-form values, the reference's numbers, and the fits' stated error bounds.
 
-mod common;
-
+use crate::common::Random;
 use catseye::albedo::exact::{self, Quadrature};
 use catseye::albedo::{CompactFit, FastFit};
 use catseye::{Vec3, width};
-use common::Random;
 
 /// Roughness over its whole range, also 0 and infinity.
 fn roughness(u: f64) -> f64 {

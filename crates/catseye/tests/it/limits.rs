@@ -1,10 +1,8 @@
 //! The ends of the parameters' ranges, line by line as in docs/theory.md, section 9.
 
-mod common;
-
+use crate::common::{Random, directions, to_f32};
 use catseye::albedo::exact;
 use catseye::{AnyLobe, Component, Edwards, Lobe as _, Model, Params, Reciprocal, Vec3};
-use common::{Random, directions, to_f32};
 
 #[test]
 fn default_is_a_perfect_retro_reflector() {
