@@ -29,7 +29,7 @@ vec2 mx_retro_reflective_widths(float roughness_u, float roughness_v)
 }
 
 // ln(1 - x), given also rest = 1 - x with all its digits. For small x the series of -2 atanh(x / (2 - x)).
-float mx_retro_reflective_log(float x, float rest)
+float mx_retro_reflective_ln_one_minus(float x, float rest)
 {
     if (x > 0.25)
     {
@@ -54,7 +54,7 @@ float mx_retro_reflective_lump(vec3 wo, vec3 delta, vec2 widths)
     vec2 e = d / widths;
     float exponent = dot(e, e) / max(d2, 1e-30);
     float norm = 0.5 * M_PI_INV / (widths.x * widths.y);
-    return norm * exp(exponent * mx_retro_reflective_log(d2 / whole, part / whole));
+    return norm * exp(exponent * mx_retro_reflective_ln_one_minus(d2 / whole, part / whole));
 }
 
 // f = B min(z_o, z_i) / (max(z_o, z_i)^2 (z_o + z_i)), in 1/sr, for two directions above the horizon.

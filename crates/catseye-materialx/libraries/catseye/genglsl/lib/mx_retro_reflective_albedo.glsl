@@ -194,7 +194,7 @@ float mx_retro_reflective_loss(RetroReflectiveAlbedo albedo, float x2, float y2)
 
 // The integral of loss s ds, s being the sine, along a ray of constant azimuth given by its squared cosine from the
 // x axis. In t, which runs with e from 0 to 1, it is a polynomial of degree 5: three Gauss points are exact.
-float mx_retro_reflective_ray(RetroReflectiveAlbedo albedo, float cos2)
+float mx_retro_reflective_energy(RetroReflectiveAlbedo albedo, float cos2)
 {
     float b = albedo.e.x * cos2 + albedo.e.y * (1.0 - cos2);
     float first = sqrt(albedo.e_0);
@@ -217,7 +217,7 @@ float mx_retro_reflective_average_loss(RetroReflectiveAlbedo albedo)
 {
     if (albedo.ratio == 1.0)
     {
-        return 2.0 * mx_retro_reflective_ray(albedo, 0.5);
+        return 2.0 * mx_retro_reflective_energy(albedo, 0.5);
     }
     // The azimuth from the wider axis is pi/2 (1 - (1 - t)^2): the nodes crowd towards the narrower one, where the
     // loss has a bend.
@@ -228,7 +228,7 @@ float mx_retro_reflective_average_loss(RetroReflectiveAlbedo albedo)
         float rest = 1.0 - (float(i) + 0.5) / float(NODES);
         float c = mx_cos(0.5 * M_PI * (1.0 - rest * rest));
         float cos2 = albedo.u_wider ? c * c : 1.0 - c * c;
-        average += rest * mx_retro_reflective_ray(albedo, cos2);
+        average += rest * mx_retro_reflective_energy(albedo, cos2);
     }
     return average * 4.0 / float(NODES);
 }
