@@ -1,8 +1,8 @@
 //! Many directions at once, as structures of arrays, with the widest vector instructions of the machine.
 //!
 //! The loops call the same inlined, branch-poor functions as the scalar path, over blocks of a fixed length; the compiler
-//! turns them into vector code once per instruction set, and the set is chosen at run time. No step is fused or
-//! reordered, so the results are equal to the scalar ones bit for bit.
+//! turns them into vector code once per instruction set, and the set is chosen at run time. No step is reordered, so that
+//! the results are equal to the scalar ones bit for bit.
 //!
 //! ```
 //! use catseye::{Params, Reciprocal, batch};

@@ -1,10 +1,10 @@
 //! Single-precision elementary functions without branches or calls.
 //!
-//! They are inlined into the lobes, turn into vector code in `batch`, and give the same bits on every machine. All
-//! polynomials meet the functions' Taylor series at Chebyshev nodes of the range that they are used in, which needs
-//! one or two terms fewer than the series itself; their errors are below half a unit in the last place. They are summed
-//! as a tree, since their latency is what a single evaluation waits for. Selections are marked so that they do not
-//! become branches, which random directions would mispredict.
+//! They are inlined into the lobes, turn into vector code in `batch`, and give the same bits on every machine (but for
+//! the feature `fused`). All polynomials meet the functions' Taylor series at Chebyshev nodes of the range that they are
+//! used in, which needs one or two terms fewer than the series itself; their errors are below half a unit in the last
+//! place. They are summed as a tree, since their latency is what a single evaluation waits for. Selections are marked so
+//! that they do not become branches, which random directions would mispredict.
 
 use core::f32::consts::LOG2_E;
 use core::f64::consts::{FRAC_1_SQRT_2, LN_2, PI};

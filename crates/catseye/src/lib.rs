@@ -41,6 +41,8 @@
 //! # Features
 //!
 //! `std` (default) and `simd` (default, needs `std`: the `batch` module). Without `std`, enable `libm`.
+//! `fused` rounds once where it multiplies and adds, on targets that have an instruction for it
+//! (`RUSTFLAGS="-C target-cpu=x86-64-v3"`): faster and as exact, but its last digits are those of such builds only.
 #![cfg_attr(not(feature = "std"), no_std)]
 
 pub mod albedo;
