@@ -21,7 +21,8 @@ use crate::{
     },
 };
 
-/// A MaterialX document, well-formed and of a known version; its nodes are checked when its materials are asked for.
+/// A MaterialX document, well-formed and of a known version; its nodes are checked when its materials are
+/// asked for.
 #[derive(Debug)]
 pub struct Document {
     name: Arc<str>,
@@ -38,8 +39,8 @@ impl Document {
         Self::load_with(path, &Arc::default())
     }
 
-    /// Reads a file and what it includes from its own folder and the search path of a library, whose definitions its
-    /// nodes may have.
+    /// Reads a file and what it includes from its own folder and the search path of a library, whose
+    /// definitions its nodes may have.
     ///
     /// # Errors
     /// As [`Document::load`].
@@ -51,15 +52,18 @@ impl Document {
         Ok(Self { name: Arc::from(&*name), root, library: Arc::clone(library) })
     }
 
-    /// Reads a document from bytes; `name` stands for the file in messages. It has no folder: it can't name files.
+    /// Reads a document from bytes; `name` stands for the file in messages. It has no folder: it can't name
+    /// files.
     ///
     /// # Errors
-    /// The bytes are no text in UTF-8, UTF-16 or a declared ISO-8859-1, or it is refused by [`Document::parse`].
+    /// The bytes are no text in UTF-8, UTF-16 or a declared ISO-8859-1, or it is refused by
+    /// [`Document::parse`].
     pub fn from_bytes(bytes: &[u8], name: &str) -> Result<Self, Error> {
         Self::of_root(parse_bytes(bytes, name, None)?)
     }
 
-    /// Reads a document from its text; `name` stands for the file in messages. It has no folder: it can't name files.
+    /// Reads a document from its text; `name` stands for the file in messages. It has no folder: it can't
+    /// name files.
     ///
     /// # Errors
     /// The text is too large, no well-formed XML, no MaterialX, or of a version other than 1.38 and 1.39.

@@ -81,7 +81,8 @@ pub enum Error {
         /// What it says.
         message: String,
     },
-    /// A document type declaration: the door to entity bombs and foreign files, and MaterialX has no use for it.
+    /// A document type declaration: the door to entity bombs and foreign files, and MaterialX has no use for
+    /// it.
     #[error("{at}: document type declarations are refused; remove <!DOCTYPE ...>")]
     DocumentType {
         /// The declaration.
@@ -350,7 +351,8 @@ pub(crate) fn one_line(text: &str) -> String {
     start.chars().map(printable).collect::<String>() + rest
 }
 
-/// The start of a text that takes at most so many characters once it is escaped, and what stands for the rest.
+/// The start of a text that takes at most so many characters once it is escaped, and what stands for the
+/// rest.
 fn cut(text: &str, longest: usize) -> (&str, &'static str) {
     let mut length = 0;
     for (end, c) in text.char_indices() {

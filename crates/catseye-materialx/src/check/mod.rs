@@ -108,10 +108,11 @@ impl Report {
     }
 }
 
-/// What is wrong with a file: errors exactly where [`Document`](crate::Document) refuses it or one of its materials or looks.
+/// What is wrong with a file: errors exactly where [`Document`](crate::Document) refuses it or one of its
+/// materials or looks.
 ///
-/// Unlike [`Document::material`](crate::Document::material) this goes on after the first problem, and looks at nodes too that no
-/// material uses; what is wrong with them alone is a warning.
+/// Unlike [`Document::material`](crate::Document::material) this goes on after the first problem, and looks
+/// at nodes too that no material uses; what is wrong with them alone is a warning.
 #[must_use]
 pub fn check(path: impl AsRef<Path>, library: &Library) -> Report {
     let path = path.as_ref();
@@ -168,10 +169,11 @@ fn check_elements(root: &Element, own_file: &Arc<str>, mut errors: Vec<Error>, l
     Report { findings, more }
 }
 
-/// Builds every material as [`Document::material`](crate::Document::material) does, and tells what is refused.
+/// Builds every material as [`Document::material`](crate::Document::material) does, and tells what is
+/// refused.
 ///
-/// One builder does for all as long as it refuses nothing; where it does, a new one decides, since limits are those of one
-/// material.
+/// One builder does for all as long as it refuses nothing; where it does, a new one decides, since limits are
+/// those of one material.
 fn refused<'a>(
     graph: &'a Graph<'a>,
     library: &'a Library,

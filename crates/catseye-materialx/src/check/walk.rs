@@ -236,7 +236,8 @@ impl<'a> Checker<'a, '_> {
         feeds
     }
 
-    /// Checks the graph behind a node where the document brings it: once, with the inputs of the first node that uses it.
+    /// Checks the graph behind a node where the document brings it: once, with the inputs of the first node
+    /// that uses it.
     fn definition(&mut self, graph: &'a Element, node: NodeRef<'a>) {
         let own = self.graph.element(ROOT).children().as_ptr_range();
         if !own.contains(&ptr::from_ref(graph)) || !self.entered.insert(graph) {

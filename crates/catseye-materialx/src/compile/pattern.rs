@@ -277,8 +277,8 @@ pub(crate) fn find_picture(
     })
 }
 
-/// The colour space of a picture: that of the input that names it where the node gives colours, else its numbers are
-/// taken as they are.
+/// The colour space of a picture: that of the input that names it where the node gives colours, else its
+/// numbers are taken as they are.
 fn picture_space(
     owner: &Element,
     literal: &Element,

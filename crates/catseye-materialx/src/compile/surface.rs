@@ -21,7 +21,8 @@ use crate::{
     text::element::Element,
 };
 
-/// BSDF nodes on one path from a surface down; also what keeps the recursion of readers and renderers bounded.
+/// BSDF nodes on one path from a surface down; also what keeps the recursion of readers and renderers
+/// bounded.
 const MAX_DEPTH: usize = 64;
 /// Closures of all materials of a document: a node with two users counts twice, so 30 nodes could make 2^30.
 const MAX_CLOSURES: usize = 65_536;

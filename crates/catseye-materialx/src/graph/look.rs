@@ -21,8 +21,8 @@ pub struct Look {
 pub struct Assignment {
     /// The name of the material.
     pub material: String,
-    /// Paths of geometry, as in `/car/body`; each stands for all that is below it, and `*` for any characters of one
-    /// part of a path.
+    /// Paths of geometry, as in `/car/body`; each stands for all that is below it, and `*` for any characters
+    /// of one part of a path.
     pub geometry: Vec<String>,
 }
 
@@ -45,7 +45,8 @@ fn matches_path(pattern: &str, path: &str) -> bool {
         && pattern.iter().zip(&path).all(|(pattern, part)| matches_part(pattern, part))
 }
 
-/// Whether a part of a path fits a pattern with `*`: greedy, in time proportional to the product of the lengths.
+/// Whether a part of a path fits a pattern with `*`: greedy, in time proportional to the product of the
+/// lengths.
 fn matches_part(pattern: &str, part: &str) -> bool {
     let Some((first, rest)) = pattern.split_once('*') else { return pattern == part };
     let Some(mut left) = part.strip_prefix(first) else { return false };

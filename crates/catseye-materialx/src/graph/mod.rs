@@ -41,7 +41,8 @@ pub(crate) const ROOT: ScopeId = ScopeId(0);
 #[derive(Clone, Copy, Debug)]
 struct Scope<'a> {
     element: &'a Element,
-    /// What the interface inputs are taken from: a nodegraph's own element, or the node that a definition stands for.
+    /// What the interface inputs are taken from: a nodegraph's own element, or the node that a definition
+    /// stands for.
     interface: Option<NodeRef<'a>>,
     /// Whether `interface` is a node of a definition.
     defined: bool,
@@ -95,8 +96,8 @@ impl<'a> Graph<'a> {
         (graph, problems, more)
     }
 
-    /// The names of a scope and the nodegraphs in it; finding the lines of problems takes time, so that not all are told but
-    /// counted.
+    /// The names of a scope and the nodegraphs in it; finding the lines of problems takes time, so that not
+    /// all are told but counted.
     fn index(&mut self, scope: &'a Element, problems: &mut Vec<Error>) -> usize {
         let mut more = 0;
         for child in scope.children() {
