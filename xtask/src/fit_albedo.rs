@@ -12,7 +12,7 @@ use catseye::albedo::exact::Quadrature;
 use nalgebra::{DMatrix, DVector};
 use rayon::prelude::*;
 
-/// The middle of e's range, subtracted from it so that the coefficients are small and `f32` suffices for them.
+/// The middle of e's range, subtracted from it so that `f32` suffices for the coefficients.
 const CENTRE: f64 = 0.6;
 
 /// The generated file, from the workspace's root.
@@ -260,7 +260,7 @@ pub(crate) fn generate() -> Result<String> {
     out.push_str("//! Tables of the albedo fits. What they mean is told in `fit.rs`.\n");
     writeln!(
         out,
-        "\n/// The middle of e's range, subtracted from it so that the coefficients are small and `f32` suffices for them."
+        "\n/// The middle of e's range, subtracted from it so that `f32` suffices for the coefficients."
     )?;
     writeln!(out, "pub(super) const CENTRE: f64 = {CENTRE:?};")?;
     let blocks = blocks();

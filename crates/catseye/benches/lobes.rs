@@ -1,9 +1,9 @@
 //! The lobes' time in units of one scalar `f32::powf` call: the table of `docs/performance.md`.
 //!
-//! `cargo bench -p catseye [-- WORDS]` runs the cases whose names contain every word. In each round `powf` is timed over
-//! the same rows right before the case, and the table has the medians of the rounds' ratios: what else the machine does
-//! slows both alike. Where Valgrind is installed it counts instructions as well; it has no AVX-512, so that the batch's
-//! counts are those of its AVX2 form.
+//! `cargo bench -p catseye [-- WORDS]` runs the cases whose names contain every word. In each round `powf` is
+//! timed over the same rows right before the case, and the table has the medians of the rounds' ratios: what
+//! else the machine does slows both alike. Where Valgrind is installed it counts instructions as well; it has
+//! no AVX-512, so that the batch's counts are those of its AVX2 form.
 
 use std::env;
 use std::hint::black_box;
@@ -14,8 +14,8 @@ use std::time::Instant;
 use catseye::batch::{self, SampleSlices};
 use catseye::{Component, Lobe as _, Params, Reciprocal, Vec3};
 
-/// Rows that come round again, so that the branch predictor learns them. Not a multiple of 1024: columns that lie a
-/// multiple of 4096 bytes apart make loads wait for stores.
+/// Rows that come round again, so that the branch predictor learns them. Not a multiple of 1024: columns that
+/// lie a multiple of 4096 bytes apart make loads wait for stores.
 const REPEATED: usize = 1040;
 
 /// Rows that are as good as new each time: too many for the branch predictor.

@@ -8,10 +8,10 @@ use crate::{Component, Lobe, ParamError, Real, Sample, Vec3};
 /// GGX reflection with the view direction mirrored about the normal: what `conductor_bsdf` with
 /// `retroreflective = true` does, for a Fresnel factor equal to the tint.
 ///
-/// Portsmouth et al., "The Minimal Retroreflective Microfacet Model", JCGT 15(1), 2026. The distribution is the
-/// anisotropic one of Walter et al. 2007, shadowing the height-correlated one of Heitz 2014, sampling that of the
-/// visible normals as spherical caps, Dupuy and Benyoub 2023. Its roughness is GGX's alpha; [`crate::AnyLobe`] has the
-/// conversion from the proposal's.
+/// Portsmouth et al., "The Minimal Retroreflective Microfacet Model", JCGT 15(1), 2026. The distribution is
+/// the anisotropic one of Walter et al. 2007, shadowing the height-correlated one of Heitz 2014, sampling
+/// that of the visible normals as spherical caps, Dupuy and Benyoub 2023. Its roughness is GGX's alpha;
+/// [`crate::AnyLobe`] has the conversion from the proposal's.
 #[derive(Clone, Copy, Debug)]
 pub struct BackVector<T> {
     alpha_u: T,
@@ -21,7 +21,8 @@ pub struct BackVector<T> {
 }
 
 impl<T: Real> BackVector<T> {
-    /// The lobe of GGX's alpha along and across `tangent_u`, in `[0, 1]`, and of a tint in `[0, 1]` per channel.
+    /// The lobe of GGX's alpha along and across `tangent_u`, in `[0, 1]`, and of a tint in `[0, 1]` per
+    /// channel.
     ///
     /// # Errors
     /// The first of them that is NaN or out of its range.

@@ -1,8 +1,8 @@
 //! Many directions at once, as structures of arrays, with the widest vector instructions of the machine.
 //!
-//! The loops call the same inlined, branch-poor functions as the scalar path, over blocks of a fixed length; the compiler
-//! turns them into vector code once per instruction set, and the set is chosen at run time. No step is reordered, so that
-//! the results are equal to the scalar ones bit for bit.
+//! The loops call the same inlined, branch-poor functions as the scalar path, over blocks of a fixed length;
+//! the compiler turns them into vector code once per instruction set, and the set is chosen at run time. No
+//! step is reordered, so that the results are equal to the scalar ones bit for bit.
 //!
 //! ```
 //! use catseye::{Params, Reciprocal, batch};
@@ -53,8 +53,8 @@ pub fn instruction_set() -> String {
     format!("{:?}", level()).split('(').next().unwrap_or_default().to_owned()
 }
 
-/// Rows that are worked on together. Loops of this length leave nothing over to be done one by one, and their loads and
-/// stores go through arrays of their own, so that they can't depend on each other.
+/// Rows that are worked on together. Loops of this length leave nothing over to be done one by one, and their
+/// loads and stores go through arrays of their own, so that they can't depend on each other.
 const BLOCK: usize = 16;
 
 type Block<T> = [T; BLOCK];

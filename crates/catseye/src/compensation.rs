@@ -8,15 +8,15 @@ use crate::{Real, Vec3};
 /// Nodes of the table of the azimuthal density over a quarter turn.
 const NODES: usize = 17;
 
-/// Multiplies u1 so that the digits left behind the point are as good as fresh ones. Not a whole number, so that
-/// regular grids of u1 do not fold onto few values.
+/// Multiplies u1 so that the digits left behind the point are as good as fresh ones. Not a whole number, so
+/// that regular grids of u1 do not fold onto few values.
 const FRESH_DIGITS: f64 = 1021.618;
 
 /// The lobe q(i) = (1-rho(i)) / (pi (1-rho_avg)), whose product with cosine integrates to 1.
 ///
-/// On the unit disk of (`i_x`, `i_y`), where the cosine is the area element, its density is proportional to the loss.
-/// Along a ray of constant azimuth the loss is a polynomial in e, and s ds is proportional to e de: the radial
-/// distribution is a polynomial too, inverted by Newton's method. The azimuthal one is tabulated.
+/// On the unit disk of (`i_x`, `i_y`), where the cosine is the area element, its density is proportional to
+/// the loss. Along a ray of constant azimuth the loss is a polynomial in e, and s ds is proportional to e de:
+/// the radial distribution is a polynomial too, inverted by Newton's method. The azimuthal one is tabulated.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Compensation<T> {
     fit: FastFit<T>,
@@ -50,7 +50,8 @@ impl<T: Real> Compensation<T> {
             let (turn, slope) = azimuth(step * T::from_f64(i as f64));
             let (sin, cos) = turn.sin_cos_turns();
             self.density[i] = self.fit.energy(self.fit.in_frame([cos, sin])) * slope;
-            // Simpson's rule for the norm, the trapezoid rule for what is sampled: the table is linear between nodes.
+            // Simpson's rule for the norm, the trapezoid rule for what is sampled: the table is linear
+            // between nodes.
             let simpson = if i == 0 || i == NODES - 1 { 1.0 } else { 2.0 + 2.0 * (i % 2) as f64 };
             integral += self.density[i] * step * T::from_f64(simpson / 3.0);
             if i > 0 {
@@ -80,8 +81,8 @@ impl<T: Real> Compensation<T> {
         self.fit.loss_as::<ISOTROPIC>(w.x, w.y)
     }
 
-    /// Draws a direction with the density `q cos`, from a fresh uniform number and the digits of u1 that the first use
-    /// has not seen.
+    /// Draws a direction with the density `q cos`, from a fresh uniform number and the digits of u1 that the
+    /// first use has not seen.
     #[inline(always)]
     pub(crate) fn sample<const ISOTROPIC: bool>(&self, fresh: T, u1: T) -> Vec3<T> {
         let turn = (u1 * T::from_f64(FRESH_DIGITS)).fract();
@@ -122,8 +123,8 @@ impl<T: Real> Compensation<T> {
     }
 }
 
-/// Azimuth from the wider axis, in turns, at the parameter in `[0, 1]` of the table, and its derivative in radians. The
-/// nodes crowd towards the narrower axis, where the loss has a bend.
+/// Azimuth from the wider axis, in turns, at the parameter in `[0, 1]` of the table, and its derivative in
+/// radians. The nodes crowd towards the narrower axis, where the loss has a bend.
 #[inline(always)]
 fn azimuth<T: Real>(parameter: T) -> (T, T) {
     let rest = T::ONE - parameter;

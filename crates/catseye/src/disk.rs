@@ -5,7 +5,8 @@ use crate::{Real, Vec3};
 /// Roughness below which the lobe is a Dirac distribution: `f32` directions can't resolve it.
 pub const DIRAC_ROUGHNESS: f64 = 1e-4;
 
-/// Cosine below which a direction counts as below the horizon, so that quotients of cosines stay finite in `f32`.
+/// Cosine below which a direction counts as below the horizon, so that quotients of cosines stay finite in
+/// `f32`.
 const HORIZON: f64 = 1e-9;
 
 /// Whether the direction is above the horizon. False for NaN.
@@ -28,8 +29,8 @@ pub(crate) fn above_horizon<T: Real>(wo: Vec3<T>, wi: Vec3<T>) -> bool {
 
 /// The lobe's width `m = sqrt(1 / (n + 1)) = sqrt(r^2 / (r^2 + 2))` for the roughness `r` in `[0, inf]`.
 ///
-/// It runs from 0 to 1 over all roughnesses, and turns the exponents `n_u`, `n_v` of the paper into the half axes
-/// `m_u`, `m_v` of an ellipse (docs/theory.md, section 2).
+/// It runs from 0 to 1 over all roughnesses, and turns the exponents `n_u`, `n_v` of the paper into the half
+/// axes `m_u`, `m_v` of an ellipse (docs/theory.md, section 2).
 #[inline]
 #[must_use]
 pub fn width<T: Real>(roughness: T) -> T {
@@ -37,7 +38,8 @@ pub fn width<T: Real>(roughness: T) -> T {
     T::ONE / (T::ONE + T::TWO / (roughness * roughness)).sqrt()
 }
 
-/// The widths for both roughnesses, or `None` where they make a Dirac lobe; a single one below the threshold is raised.
+/// The widths for both roughnesses, or `None` where they make a Dirac lobe; a single one below the threshold
+/// is raised.
 pub(crate) fn widths<T: Real>(roughness: [T; 2]) -> Option<[T; 2]> {
     let threshold = T::from_f64(DIRAC_ROUGHNESS);
     let dirac = roughness.iter().all(|&r| r < threshold);
@@ -82,20 +84,20 @@ impl<T: Real> Disk<T> {
         Some(Self { m_u, m_v, exponents: inv.map(|x| x * x), norm })
     }
 
-    /// The lump `B = sqrt((n_u+1)(n_v+1)) / (2 pi) (1-|d|^2)^(n+1)` for two directions above the horizon: Eq. 26 and 32,
-    /// as theory.md section 2 rewrites them.
+    /// The lump `B = sqrt((n_u+1)(n_v+1)) / (2 pi) (1-|d|^2)^(n+1)` for two directions above the horizon: Eq.
+    /// 26 and 32, as theory.md section 2 rewrites them.
     ///
-    /// The exponent is `n + 1 = ((n_u+1) d_x^2 + (n_v+1) d_y^2) / |d|^2`; in the isotropic case it is a constant.
-    /// Everything is scaled by `z_o + z_i`, which spares a division.
+    /// The exponent is `n + 1 = ((n_u+1) d_x^2 + (n_v+1) d_y^2) / |d|^2`; in the isotropic case it is a
+    /// constant. Everything is scaled by `z_o + z_i`, which spares a division.
     #[inline(always)]
     pub(crate) fn lump<const ISOTROPIC: bool>(&self, wo: Vec3<T>, wi: Vec3<T>) -> T {
-        // (1 - |d|^2) (z_o + z_i)^2 = z_o z_i |wo + wi|^2, accurate where |d| is near 1. Above the horizon it is a normal
-        // number.
+        // (1 - |d|^2) (z_o + z_i)^2 = z_o z_i |wo + wi|^2, accurate where |d| is near 1. Above the horizon it
+        // is a normal number.
         let (sx, sy, sz) = (wo.x + wi.x, wo.y + wi.y, wo.z + wi.z);
         let whole = sz * sz;
         let part = (wo.z * wi.z) * (sy.mul_add(sy, sx * sx) + whole);
-        // d (z_o + z_i) = z_o i_xy - z_i o_xy, written with differences that are exact near the retro direction
-        // (Sterbenz), where the lobe lives.
+        // d (z_o + z_i) = z_o i_xy - z_i o_xy, written with differences that are exact near the retro
+        // direction (Sterbenz), where the lobe lives.
         let dz = wi.z - wo.z;
         let dx = wo.z * (wi.x - wo.x) - dz * wo.x;
         let dy = wo.z * (wi.y - wo.y) - dz * wo.y;
@@ -112,8 +114,8 @@ impl<T: Real> Disk<T> {
 
     /// Draws an offset d from the distribution and reflects `wo` about the half vector `(o_xy + d, z_o)`.
     ///
-    /// With the ellipse's point `e = (m_u cos 2 pi u1, m_v sin 2 pi u1)` the exponent along the drawn azimuth is
-    /// `n + 1 = 1 / |e|^2`, and `d = e sqrt(|d|^2 / |e|^2)` with `|d|^2 = 1 - (1 - u2)^(1/(n+1))`.
+    /// With the ellipse's point `e = (m_u cos 2 pi u1, m_v sin 2 pi u1)` the exponent along the drawn azimuth
+    /// is `n + 1 = 1 / |e|^2`, and `d = e sqrt(|d|^2 / |e|^2)` with `|d|^2 = 1 - (1 - u2)^(1/(n+1))`.
     #[inline(always)]
     pub(crate) fn sample<const ISOTROPIC: bool>(&self, wo: Vec3<T>, u1: T, u2: T) -> DiskSample<T> {
         // Draw the offset.
@@ -131,7 +133,8 @@ impl<T: Real> Disk<T> {
             let scale = (d2 / e2).sqrt();
             (ex * scale, ey * scale, d2)
         };
-        // Reflect: i = 2 (o.h)/(h.h) h - o, arranged as o plus a small step so that narrow lobes keep their digits.
+        // Reflect: i = 2 (o.h)/(h.h) h - o, arranged as o plus a small step so that narrow lobes keep their
+        // digits.
         let (hx, hy) = (wo.x + dx, wo.y + dy);
         let inv = T::ONE / (hx * hx + hy * hy + wo.z * wo.z);
         let a = wo.x * dx + wo.y * dy;

@@ -3,11 +3,11 @@
 use crate::disk::{Disk, above_horizon, density, is_above_horizon};
 use crate::{Component, Lobe, ParamError, Params, Real, Sample, Vec3};
 
-/// The lobe of Edwards et al. 2006 as published: `f = B z_o / (z_i^2 (z_o + z_i))`, the density of its samples over
-/// the cosine.
+/// The lobe of Edwards et al. 2006 as published: `f = B z_o / (z_i^2 (z_o + z_i))`, the density of its
+/// samples over the cosine.
 ///
-/// Its albedo is exactly the tint for every direction and roughness, but `f(o, i)` differs from `f(i, o)`. It has
-/// nothing to compensate: `multiscatter_tint` is not used.
+/// Its albedo is exactly the tint for every direction and roughness, but `f(o, i)` differs from `f(i, o)`. It
+/// has nothing to compensate: `multiscatter_tint` is not used.
 #[derive(Clone, Copy, Debug)]
 pub struct Edwards<T> {
     disk: Option<Disk<T>>,

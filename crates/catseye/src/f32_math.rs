@@ -1,10 +1,11 @@
 //! Single-precision elementary functions without branches or calls.
 //!
-//! They are inlined into the lobes, turn into vector code in `batch`, and give the same bits on every machine (but for
-//! the feature `fused`). All polynomials meet the functions' Taylor series at Chebyshev nodes of the range that they are
-//! used in, which needs one or two terms fewer than the series itself; their errors are below half a unit in the last
-//! place. They are summed as a tree, since their latency is what a single evaluation waits for. Selections are marked so
-//! that they do not become branches, which random directions would mispredict.
+//! They are inlined into the lobes, turn into vector code in `batch`, and give the same bits on every machine
+//! (but for the feature `fused`). All polynomials meet the functions' Taylor series at Chebyshev nodes of the
+//! range that they are used in, which needs one or two terms fewer than the series itself; their errors are
+//! below half a unit in the last place. They are summed as a tree, since their latency is what a single
+//! evaluation waits for. Selections are marked so that they do not become branches, which random directions
+//! would mispredict.
 
 use core::f32::consts::LOG2_E;
 use core::f64::consts::{FRAC_1_SQRT_2, LN_2, PI};
@@ -81,8 +82,8 @@ const fn economized<const N: usize>(series: [f64; 8], nodes: [f64; N], range: f6
     rounded
 }
 
-/// The terms of `exp(base x)` from the order `first` on, every second one, over the power of x of the first of them: a
-/// series in x^2.
+/// The terms of `exp(base x)` from the order `first` on, every second one, over the power of x of the first
+/// of them: a series in x^2.
 const fn exp_series(base: f64, first: usize) -> [f64; 8] {
     let mut series = [0.0; 8];
     let (mut term, mut order) = (1.0, 0);
@@ -175,11 +176,12 @@ pub(crate) fn exp_m1_nonpositive(x: f32) -> f32 {
     fma(scale, exp_m1_reduced(r), scale - 1.0)
 }
 
-/// The integer k and s with `part / whole = 2^k (1+s)/(1-s)` and |s| below 0.2266, given also `lacking = whole - part`
-/// with all its digits. The quotient is in `(0, 1]`; `whole` and `part` are normal numbers.
+/// The integer k and s with `part / whole = 2^k (1+s)/(1-s)` and |s| below 0.2266, given also `lacking =
+/// whole - part` with all its digits. The quotient is in `(0, 1]`; `whole` and `part` are normal numbers.
 #[inline(always)]
 fn reduce_log(lacking: f32, part: f32, whole: f32) -> (f32, f32) {
-    // The difference of the bits is nearly 2^23 log2(part / whole); k is an integer near it, and 0 where little lacks.
+    // The difference of the bits is nearly 2^23 log2(part / whole); k is an integer near it, and 0 where
+    // little lacks.
     let log = (part.to_bits() as i32).wrapping_sub(whole.to_bits() as i32);
     let octaves = log.wrapping_add(HALF_OCTAVE) & WHOLE_OCTAVES;
     let scaled = f32::from_bits((part.to_bits() as i32).wrapping_sub(octaves) as u32);
@@ -191,7 +193,8 @@ fn reduce_log(lacking: f32, part: f32, whole: f32) -> (f32, f32) {
 /// The greatest square of what [`reduce_log`] returns.
 const LOG_RANGE: f64 = 0.2266 * 0.2266;
 
-/// `exponent * log2(part / whole)` within 5 ulp, for a quotient in `(0, 1]` of normal numbers, given also `whole - part`.
+/// `exponent * log2(part / whole)` within 5 ulp, for a quotient in `(0, 1]` of normal numbers, given also
+/// `whole - part`.
 #[inline(always)]
 pub(crate) fn log2_power(exponent: f32, lacking: f32, part: f32, whole: f32) -> f32 {
     // log2(e) 2 atanh(s) = s (TWO_LOG2_E + z P(z)), z = s^2

@@ -32,8 +32,8 @@ pub struct Sample<T> {
     pub wi: Vec3<T>,
     /// `eval(wo, wi) * wi.z / pdf` per channel; of a Dirac component the reflected share of the energy.
     pub weight: [T; 3],
-    /// Density of `wi` per steradian, equal to `pdf(wo, wi)`; 1 where the component is [`Component::Dirac`], whose
-    /// density is none: test for the component, not for this number.
+    /// Density of `wi` per steradian, equal to `pdf(wo, wi)`; 1 where the component is [`Component::Dirac`],
+    /// whose density is none: test for the component, not for this number.
     pub pdf: T,
     /// What the direction came from.
     pub component: Component,
@@ -48,8 +48,8 @@ impl<T: Real> Sample<T> {
 
 /// A BSDF lobe in the local frame.
 pub trait Lobe<T: Real> {
-    /// The BSDF f(wo, wi) in 1/sr per channel, cosine not included, and the density, per steradian, with which
-    /// [`Lobe::sample`] chooses `wi`. Both are 0 below the horizon and for a Dirac lobe.
+    /// The BSDF f(wo, wi) in 1/sr per channel, cosine not included, and the density, per steradian, with
+    /// which [`Lobe::sample`] chooses `wi`. Both are 0 below the horizon and for a Dirac lobe.
     #[must_use]
     fn eval_pdf(&self, wo: Vec3<T>, wi: Vec3<T>) -> ([T; 3], T);
 
@@ -72,7 +72,8 @@ pub trait Lobe<T: Real> {
     #[must_use]
     fn sample(&self, wo: Vec3<T>, u: [T; 3]) -> Option<Sample<T>>;
 
-    /// Share of the energy arriving along `wo` that is reflected, per channel, in `[0, 1]`. 0 below the horizon.
+    /// Share of the energy arriving along `wo` that is reflected, per channel, in `[0, 1]`. 0 below the
+    /// horizon.
     #[must_use]
     fn albedo(&self, wo: Vec3<T>) -> [T; 3];
 

@@ -5,7 +5,8 @@ use crate::disk::{is_above_horizon, width};
 use crate::lobe::LobeVisitor;
 use crate::{BackVector, Edwards, Lobe, ParamError, Params, Real, Reciprocal, Sample, Vec3};
 
-/// Cosines and azimuths of the directions that the mean of other models than the reciprocal one is taken over.
+/// Cosines and azimuths of the directions that the mean of other models than the reciprocal one is taken
+/// over.
 const AVERAGE: [u32; 2] = [128, 16];
 
 /// The lobes that can be chosen by name.
@@ -16,7 +17,8 @@ pub enum Model {
     Reciprocal,
     /// The paper's own lobe: albedo exactly 1, not reciprocal.
     Edwards,
-    /// The microfacet lobe of MaterialX 1.39.5 with `retroreflective = true`, of the same peak. See [`AnyLobe::new`].
+    /// The microfacet lobe of MaterialX 1.39.5 with `retroreflective = true`, of the same peak. See
+    /// [`AnyLobe::new`].
     BackVector,
 }
 
@@ -50,8 +52,9 @@ impl<T: Real> AnyLobe<T> {
     /// Validates and prepares the parameters for the model.
     ///
     /// The roughness is the proposal's for every model. For the back-vector model it becomes GGX's alpha by
-    /// [`width`], which gives all three lobes the same value at normal incidence in the retro direction: alpha is
-    /// roughness / sqrt(2) where that is small, and 1 for an infinite roughness. That model has no compensation.
+    /// [`width`], which gives all three lobes the same value at normal incidence in the retro direction:
+    /// alpha is roughness / sqrt(2) where that is small, and 1 for an infinite roughness. That model has no
+    /// compensation.
     ///
     /// # Errors
     /// The first parameter that is NaN or out of its range.
@@ -68,8 +71,8 @@ impl<T: Real> AnyLobe<T> {
 }
 
 impl Model {
-    /// The albedo along `wo` per channel by quadrature, without the fits that [`Lobe::albedo`] uses: 0 below the
-    /// horizon. The error is below 1e-9, for the back-vector model below 1e-4.
+    /// The albedo along `wo` per channel by quadrature, without the fits that [`Lobe::albedo`] uses: 0 below
+    /// the horizon. The error is below 1e-9, for the back-vector model below 1e-4.
     ///
     /// # Errors
     /// The first parameter that is NaN or out of its range.
@@ -84,8 +87,8 @@ impl Model {
         Ok(params.albedo(exact::directional(params.roughness(), wo)))
     }
 
-    /// The cosine-weighted mean of [`Model::exact_albedo`] over the hemisphere, per channel: the share of diffuse
-    /// light that is reflected. The error is below 1e-9, for the back-vector model below 1e-3.
+    /// The cosine-weighted mean of [`Model::exact_albedo`] over the hemisphere, per channel: the share of
+    /// diffuse light that is reflected. The error is below 1e-9, for the back-vector model below 1e-3.
     ///
     /// # Errors
     /// The first parameter that is NaN or out of its range.

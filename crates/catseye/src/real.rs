@@ -13,8 +13,8 @@ mod sealed {
 
 /// `f32` or `f64`. Sealed: the lobes' error bounds hold for these two only.
 ///
-/// `f64` uses the platform's mathematical functions and is the oracle. `f32` uses the crate's own branch-free ones,
-/// which the compiler can put into vector registers and which give the same bits everywhere.
+/// `f64` uses the platform's mathematical functions and is the oracle. `f32` uses the crate's own branch-free
+/// ones, which the compiler can put into vector registers and which give the same bits everywhere.
 pub trait Real:
     sealed::Sealed
     + Copy
@@ -58,22 +58,23 @@ pub trait Real:
     /// The fractional part of a value in `[0, 2^22)`.
     #[must_use]
     fn fract(self) -> Self;
-    /// `factor` times 2 to the power of a value in `[-inf, 0]`; 0 below -115, where denormals would cost more than they
-    /// are worth.
+    /// `factor` times 2 to the power of a value in `[-inf, 0]`; 0 below -115, where denormals would cost more
+    /// than they are worth.
     #[must_use]
     fn exp2_nonpositive(self, factor: Self) -> Self;
     /// `exp(self) - 1` for a value in `[-80, 0]`, accurate for small values.
     #[must_use]
     fn exp_m1_nonpositive(self) -> Self;
-    /// `ln(1 - self)` for a value in `[0, 1)`, accurate for small values; `complement` is `1 - self`, from which the
-    /// result is computed where `self` is near 1.
+    /// `ln(1 - self)` for a value in `[0, 1)`, accurate for small values; `complement` is `1 - self`, from
+    /// which the result is computed where `self` is near 1.
     #[must_use]
     fn ln_one_minus(self, complement: Self) -> Self;
-    /// `exponent * log2(part / whole)` for `self = whole - part`, accurate where the quotient is near 1 and where it is
-    /// small.
+    /// `exponent * log2(part / whole)` for `self = whole - part`, accurate where the quotient is near 1 and
+    /// where it is small.
     #[must_use]
     fn log2_power(self, exponent: Self, part: Self, whole: Self) -> Self;
-    /// `self * factor + summand`, rounded once where the feature `fused` is on and the target has an instruction for it.
+    /// `self * factor + summand`, rounded once where the feature `fused` is on and the target has an
+    /// instruction for it.
     #[must_use]
     fn mul_add(self, factor: Self, summand: Self) -> Self;
     /// Sine and cosine of an angle in radians.

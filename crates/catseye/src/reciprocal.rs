@@ -5,11 +5,11 @@ use crate::disk::{Disk, above_horizon, is_above_horizon};
 use crate::lobe::LobeVisitor;
 use crate::{Component, Lobe, ParamError, Params, Real, Sample, Vec3};
 
-/// The BSDF of the `retro_reflective_bsdf` node: Edwards' lobe made reciprocal, plus the compensation of the energy
-/// it loses.
+/// The BSDF of the `retro_reflective_bsdf` node: Edwards' lobe made reciprocal, plus the compensation of the
+/// energy it loses.
 ///
-/// With the lump B of the halfway-vector disk and the albedo rho of single scattering (docs/theory.md, sections 2
-/// and 5):
+/// With the lump B of the halfway-vector disk and the albedo rho of single scattering (docs/theory.md,
+/// sections 2 and 5):
 ///
 /// ```text
 /// f     = B min(z_o, z_i) / (max(z_o, z_i)^2 (z_o + z_i))
@@ -17,8 +17,8 @@ use crate::{Component, Lobe, ParamError, Params, Real, Sample, Vec3};
 /// total = tint f + multiscatter_tint f_ms
 /// ```
 ///
-/// Sampling draws from the disk and passes what single scattering rejects to the compensation. Where both tints are
-/// the same grey, its density is the BSDF times cosine: every sample weighs the same.
+/// Sampling draws from the disk and passes what single scattering rejects to the compensation. Where both
+/// tints are the same grey, its density is the BSDF times cosine: every sample weighs the same.
 #[derive(Clone, Copy, Debug)]
 pub struct Reciprocal<T> {
     disk: Option<Disk<T>>,
@@ -45,8 +45,8 @@ impl<T: Real> Reciprocal<T> {
         })
     }
 
-    /// The cosine-weighted hemispherical mean of [`Lobe::albedo`], per channel: the share of diffuse light that is
-    /// reflected. As exact as the fit that it is the integral of.
+    /// The cosine-weighted hemispherical mean of [`Lobe::albedo`], per channel: the share of diffuse light
+    /// that is reflected. As exact as the fit that it is the integral of.
     #[must_use]
     pub fn average_albedo(&self) -> [T; 3] {
         let loss = if self.disk.is_some() { self.compensation.average_loss() } else { T::ZERO };
@@ -65,11 +65,12 @@ impl<T: Real> Reciprocal<T> {
     }
 }
 
-/// f of single scattering without its tint, in 1/sr, and the density of disk samples per steradian, for the lump B.
+/// f of single scattering without its tint, in 1/sr, and the density of disk samples per steradian, for the
+/// lump B.
 #[inline(always)]
 fn single<T: Real>(lump: T, wo: Vec3<T>, wi: Vec3<T>) -> (T, T) {
-    // All quotients come from one division, in factors that stay in range. They are finished while the lump is still
-    // being computed.
+    // All quotients come from one division, in factors that stay in range. They are finished while the lump
+    // is still being computed.
     let (sum, product, low) = (wo.z + wi.z, wo.z * wi.z, wo.z.min(wi.z));
     let inv = T::ONE / (sum * product);
     let steep = low * inv;
@@ -78,8 +79,8 @@ fn single<T: Real>(lump: T, wo: Vec3<T>, wi: Vec3<T>) -> (T, T) {
     (f, pdf)
 }
 
-/// f of the compensation without its tint, in 1/sr, and the lobe q of its samples, whose density is q cos; `loss_o` is
-/// what single scattering loses along the outgoing direction.
+/// f of the compensation without its tint, in 1/sr, and the lobe q of its samples, whose density is q cos;
+/// `loss_o` is what single scattering loses along the outgoing direction.
 #[inline(always)]
 fn multiple<T: Real, const ISOTROPIC: bool>(
     compensation: &Compensation<T>,
@@ -104,8 +105,8 @@ struct Split<T> {
 #[inline(always)]
 fn split<T: Real>([single, multiple]: [T; 2], loss: T) -> Split<T> {
     let energy = single + (multiple - single) * loss; // single rho + multiple (1 - rho)
-    // With as much tint as compensation, base = 0 and slope = 1 make f cos itself the density of what is kept.
-    // More tint keeps some of the rejected samples, less tint rejects some of the accepted ones.
+    // With as much tint as compensation, base = 0 and slope = 1 make f cos itself the density of what is
+    // kept. More tint keeps some of the rejected samples, less tint rejects some of the accepted ones.
     let slope = (single.min(multiple) / energy.max(T::from_f64(1e-30))).min(T::ONE);
     let less_tint = single < multiple;
     let base = if less_tint { T::ZERO } else { T::ONE - slope };
@@ -241,7 +242,8 @@ impl<T: Real> Lobe<T> for Reciprocal<T> {
 
     #[inline(always)]
     fn specialize<V: LobeVisitor<T>>(&self, visitor: V) -> V::Output {
-        // A copy of its own, for loops: the compiler knows that nothing changes it, and may read it at any time.
+        // A copy of its own, for loops: the compiler knows that nothing changes it, and may read it at any
+        // time.
         let lobe = *self;
         lobe.decided(visitor)
     }

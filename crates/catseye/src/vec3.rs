@@ -24,7 +24,8 @@ impl<T: Real> Vec3<T> {
         Self { x, y, z }
     }
 
-    /// The unit vector at polar angle `theta` from the normal and azimuth `phi` from `tangent_u`, both in radians.
+    /// The unit vector at polar angle `theta` from the normal and azimuth `phi` from `tangent_u`, both in
+    /// radians.
     #[inline]
     #[must_use]
     pub fn from_angles(theta: T, phi: T) -> Self {

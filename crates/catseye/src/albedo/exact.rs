@@ -46,9 +46,9 @@ impl Quadrature {
         body(&Self::new())
     }
 
-    /// `1 - g(c, n)`: the share that single scattering loses when the disk offset d has the fixed azimuth whose
-    /// projection on the direction is `c = o_xy . d / |d|`, in `[-1, 1]`, where the lobe's width is
-    /// `m = sqrt(1/(n+1))`, in `(0, 1]`.
+    /// `1 - g(c, n)`: the share that single scattering loses when the disk offset d has the fixed azimuth
+    /// whose projection on the direction is `c = o_xy . d / |d|`, in `[-1, 1]`, where the lobe's width is `m
+    /// = sqrt(1/(n+1))`, in `(0, 1]`.
     ///
     /// Integrates over `q = (1-t)^(n+1)` with `t = |d|^2`; where c < 0 nothing is lost for `t < c^2`.
     #[must_use]
@@ -72,10 +72,12 @@ impl Quadrature {
         })
     }
 
-    /// `1 - rho(o)` for the widths `[m_u, m_v]` of the lobe and the tangential part `[o_x, o_y]` of the direction.
+    /// `1 - rho(o)` for the widths `[m_u, m_v]` of the lobe and the tangential part `[o_x, o_y]` of the
+    /// direction.
     ///
-    /// With `e = (m_u cos psi, m_v sin psi)`, rho is the mean over psi of `g(o_xy . e / |e|, 1/|e|^2 - 1)`. The
-    /// integrand has kinks where `o_xy . e = 0` and, for a narrow ellipse, near its ends: the range is split at both.
+    /// With `e = (m_u cos psi, m_v sin psi)`, rho is the mean over psi of `g(o_xy . e / |e|, 1/|e|^2 - 1)`.
+    /// The integrand has kinks where `o_xy . e = 0` and, for a narrow ellipse, near its ends: the range is
+    /// split at both.
     #[must_use]
     pub fn loss(&self, [m_u, m_v]: [f64; 2], [x, y]: [f64; 2]) -> f64 {
         let (along_u, along_v) = (m_u * x, m_v * y);
@@ -131,7 +133,8 @@ fn atan2(y: f64, x: f64) -> f64 {
     return libm::atan2(y, x);
 }
 
-/// Directional albedo rho(o) of single scattering for the roughness pair, each in `[0, inf]`; error below 1e-9.
+/// Directional albedo rho(o) of single scattering for the roughness pair, each in `[0, inf]`; error below
+/// 1e-9.
 ///
 /// 0 below the horizon, 1 where both roughnesses make a Dirac lobe.
 #[must_use]
@@ -148,7 +151,8 @@ pub fn average(roughness: [f64; 2]) -> f64 {
     widths(roughness).map_or(1.0, |m| 1.0 - Quadrature::shared(|rule| rule.average_loss(m)))
 }
 
-/// The compensation `f_ms(o,i) = (1-rho(o)) (1-rho(i)) / (pi (1-rho_avg))` in 1/sr, for a multiscatter tint of 1.
+/// The compensation `f_ms(o,i) = (1-rho(o)) (1-rho(i)) / (pi (1-rho_avg))` in 1/sr, for a multiscatter tint
+/// of 1.
 ///
 /// 0 below the horizon and for a Dirac lobe.
 #[must_use]

@@ -1,16 +1,17 @@
 //! The albedo as a polynomial whose coefficients depend on the roughness pair.
 //!
-//! For the larger width m of the lobe, the ratio k <= 1 of the smaller to it, and x, y along and across the wider
-//! axis, the loss is fitted by
+//! For the larger width m of the lobe, the ratio k <= 1 of the smaller to it, and x, y along and across the
+//! wider axis, the loss is fitted by
 //!
 //! ```text
 //! 1 - rho(o) = m (P0(e') + w P1(e') + w^2 P2(e') + w^3 P3(e'))
 //! e^2 = x^2 + k^2 y^2 + KAPPA m^2 (1 + k^2)     e' = e - CENTRE     w = (1 - k^2) y^2
 //! ```
 //!
-//! The loss of a narrow lobe is proportional to the length of (m x, m k y), a cone in the direction, rounded at a
-//! distance of m; the hyperbola e has that shape, and the polynomials only bend it. In the isotropic case w = 0. The
-//! coefficients of P are sums of `T_a(2 m - 1) T_b(2 k - 1)` over a table, T being Chebyshev polynomials.
+//! The loss of a narrow lobe is proportional to the length of (m x, m k y), a cone in the direction, rounded
+//! at a distance of m; the hyperbola e has that shape, and the polynomials only bend it. In the isotropic
+//! case w = 0. The coefficients of P are sums of `T_a(2 m - 1) T_b(2 k - 1)` over a table, T being Chebyshev
+//! polynomials.
 
 use super::tables::{CENTRE, COMPACT, COMPACT_KAPPA, FAST, FAST_KAPPA};
 use crate::Real;
@@ -39,7 +40,8 @@ pub type FastFit<T> = Fit<T, 9, 6, 4, 3>;
 pub type CompactFit<T> = Fit<T, 5, 3, 1, 0>;
 
 impl<T: Real> FastFit<T> {
-    /// The fit for the widths `m_u`, `m_v` of the lobe, each in `[0, 1]` and not both 0. See [`crate::width`].
+    /// The fit for the widths `m_u`, `m_v` of the lobe, each in `[0, 1]` and not both 0. See
+    /// [`crate::width`].
     #[must_use]
     pub fn new([m_u, m_v]: [T; 2]) -> Self {
         Self::from_table(&FAST, FAST_KAPPA, [m_u, m_v])
@@ -47,7 +49,8 @@ impl<T: Real> FastFit<T> {
 }
 
 impl<T: Real> CompactFit<T> {
-    /// The fit for the widths `m_u`, `m_v` of the lobe, each in `[0, 1]` and not both 0. See [`crate::width`].
+    /// The fit for the widths `m_u`, `m_v` of the lobe, each in `[0, 1]` and not both 0. See
+    /// [`crate::width`].
     #[must_use]
     pub fn new([m_u, m_v]: [T; 2]) -> Self {
         Self::from_table(&COMPACT, COMPACT_KAPPA, [m_u, m_v])
@@ -117,7 +120,8 @@ impl<T: Real> FastFit<T> {
         if self.e_x < self.e_y { [narrower, wider] } else { [wider, narrower] }
     }
 
-    /// The integral of `loss s ds` along the ray of azimuth (x, y), a unit vector in the plane, s being the sine.
+    /// The integral of `loss s ds` along the ray of azimuth (x, y), a unit vector in the plane, s being the
+    /// sine.
     ///
     /// In t, see [`Ray`], the integrand is a polynomial of degree 9: five Gauss points are exact.
     #[inline(always)]
@@ -175,10 +179,12 @@ impl<T: Real> FastFit<T> {
     }
 }
 
-/// The loss along a ray from the normal to the horizon, a polynomial in `t = (e - e_first) / (e_last - e_first)`.
+/// The loss along a ray from the normal to the horizon, a polynomial in `t = (e - e_first) / (e_last -
+/// e_first)`.
 ///
-/// With `b s^2 = e^2 - e_first^2` the squared sine is the parabola `s^2 = t (2 first + range t)`, where `first` and
-/// `range` are `e_first` and `e_last - e_first` over the sum of both ends: nothing is divided by b, which may be 0.
+/// With `b s^2 = e^2 - e_first^2` the squared sine is the parabola `s^2 = t (2 first + range t)`, where
+/// `first` and `range` are `e_first` and `e_last - e_first` over the sum of both ends: nothing is divided by
+/// b, which may be 0.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Ray<T> {
     /// The loss times s ds/dt.
@@ -210,15 +216,15 @@ impl<T: Real> Ray<T> {
             *c *= T::from_f64(1.0 / (j + 1) as f64);
         }
         let energy = horner(&cumulated, T::ONE);
-        // At the horizon d(s^2)/du is 2 energy / loss, between 2/3 where the loss is proportional to s and 1 where it is
-        // constant; that of the guess is 1 - bend / 4.
+        // At the horizon d(s^2)/du is 2 energy / loss, between 2/3 where the loss is proportional to s and 1
+        // where it is constant; that of the guess is 1 - bend / 4.
         let slope = T::TWO * energy * (first + range) / horner(&density, T::ONE).max(T::from_f64(TINY));
         let bend = (T::from_f64(4.0) * (T::ONE - slope)).max(T::ZERO).min(T::from_f64(1.4));
         Self { density, cumulated, first, range, energy, bend }
     }
 
-    /// The squared sine below which lies the share u of the energy: a step of Newton's method and one of higher order,
-    /// to 4e-7 of the energy.
+    /// The squared sine below which lies the share u of the energy: a step of Newton's method and one of
+    /// higher order, to 4e-7 of the energy.
     #[inline(always)]
     pub(crate) fn sample_squared_sine(&self, u: T) -> T {
         let root = u.sqrt();
@@ -276,8 +282,8 @@ fn add_product<T: Real, const N: usize, const M: usize, const R: usize>(
     sum
 }
 
-/// The coefficients of the fit: the table `[a][b][coefficient]` times m and the Chebyshev polynomials of the width m and
-/// of the ratio k.
+/// The coefficients of the fit: the table `[a][b][coefficient]` times m and the Chebyshev polynomials of the
+/// width m and of the ratio k.
 fn contract<T: Real, const N_M: usize, const N_K: usize, const N: usize>(
     table: &[[[f32; N]; N_K]; N_M],
     m: T,
@@ -296,8 +302,8 @@ fn contract<T: Real, const N_M: usize, const N_K: usize, const N: usize>(
     coefficients
 }
 
-/// The same for a ratio of 1, where all Chebyshev polynomials are 1, as far as w = 0 leaves the coefficients a meaning:
-/// the `N_0` of P0.
+/// The same for a ratio of 1, where all Chebyshev polynomials are 1, as far as w = 0 leaves the coefficients
+/// a meaning: the `N_0` of P0.
 fn contract_isotropic<T: Real, const N_0: usize, const N_M: usize, const N_K: usize, const N: usize>(
     table: &[[[f32; N]; N_K]; N_M],
     m: T,

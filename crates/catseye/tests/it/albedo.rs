@@ -1,4 +1,5 @@
-//! The albedo in its three forms: closed-form values, the reference's numbers, and the fits' stated error bounds.
+//! The albedo in its three forms: closed-form values, the reference's numbers, and the fits' stated error
+//! bounds.
 
 use crate::common::Random;
 use catseye::albedo::exact::{self, Quadrature};

@@ -1,4 +1,5 @@
-//! Samples follow the density that `pdf` states: Pearson's chi-square test, all lobes, with Sidak's correction.
+//! Samples follow the density that `pdf` states: Pearson's chi-square test, all lobes, with Sidak's
+//! correction.
 
 use std::f64::consts::TAU;
 use std::fmt::Write as _;

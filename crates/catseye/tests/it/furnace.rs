@@ -1,4 +1,5 @@
-//! Energy: in a white furnace the lobe with both tints 1 returns 1, and no lobe returns more than it receives.
+//! Energy: in a white furnace the lobe with both tints 1 returns 1, and no lobe returns more than it
+//! receives.
 
 use crate::common::{ROUGHNESS, Random, directions, to_f32};
 use catseye::albedo::exact;
@@ -15,15 +16,17 @@ fn by_sampling(lobe: &impl Lobe<f64>, wo: Vec3<f64>) -> f64 {
     sum / (N * N * N) as f64
 }
 
-/// The integral of f cos over the hemisphere. Substituting the lobe's own warp flattens the integrand, whatever the
-/// roughness: the quadrature runs over the disk samples of a lobe without compensation, whose density is known.
+/// The integral of f cos over the hemisphere. Substituting the lobe's own warp flattens the integrand,
+/// whatever the roughness: the quadrature runs over the disk samples of a lobe without compensation, whose
+/// density is known.
 fn by_quadrature(lobe: &impl Lobe<f64>, plain: &Edwards<f64>, wo: Vec3<f64>) -> f64 {
     const N: usize = 160;
     let mut single = 0.0;
     for i in 0..N * N {
         let u = [i % N, i / N].map(|k| (k as f64 + 0.5) / N as f64);
         if let Some(s) = plain.sample(wo, [u[0], u[1], 0.5]) {
-            // Only the part of f that the warp resolves: f_ms is integrated below, over the projected hemisphere.
+            // Only the part of f that the warp resolves: f_ms is integrated below, over the projected
+            // hemisphere.
             single += (lobe.eval(wo, s.wi)[0] - lobe.eval(wo, s.wi)[2]) * s.wi.z / s.pdf;
         }
     }
@@ -146,7 +149,8 @@ fn tints_scale_the_channels() {
     }
 }
 
-/// Every sample of a lobe with equal grey tints weighs the same, for every roughness pair, in both precisions.
+/// Every sample of a lobe with equal grey tints weighs the same, for every roughness pair, in both
+/// precisions.
 #[test]
 fn weights_are_one() {
     let mut random = Random(11);

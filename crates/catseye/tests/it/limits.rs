@@ -128,7 +128,8 @@ fn bad_parameters_are_named() {
     assert_eq!(clamped, Params::anisotropic(0.0, 0.0).with_tint([1.0, 0.0, 0.0]));
 }
 
-/// Retro-reflection at no observation angle: `R_A = (n+1) / (4 pi)` for every entrance angle, theory.md section 10.
+/// Retro-reflection at no observation angle: `R_A = (n+1) / (4 pi)` for every entrance angle, theory.md
+/// section 10.
 #[test]
 fn coefficient_of_retroreflection_does_not_depend_on_entrance() {
     let n: f64 = 6e4;
