@@ -164,6 +164,12 @@ fn values_of_other_types() {
         ),
         // The comparison itself.
         ("boolean", r#"<ifgreater name="q" type="boolean" />"#, [1.0; 3]),
+        // No geometry has properties.
+        (
+            "float",
+            r#"<geompropvalue name="q" type="float"><input name="geomprop" type="string" value="height" /><input name="default" type="float" value="0.4" /></geompropvalue>"#,
+            [0.4; 3],
+        ),
         // The definition that a node names counts more than its category.
         (
             "float",

@@ -128,13 +128,14 @@ def ours(bodies, points=(POINT,), folder=""):
         file.write("".join(" ".join(map(repr, point)) + "\n" for point in points))
         file.flush()
         text = SEPARATOR.join(document(body) for body in bodies)
-        done = subprocess.run([os.environ["OUTPUTS"], file.name], input=text, capture_output=True, text=True, check=True,
-                              env=os.environ | {"MATERIALX_SEARCH_PATH": str(folder)})
+        done = subprocess.run([os.environ["OUTPUTS"], file.name], input=text, capture_output=True, text=True,
+                              check=True, env=os.environ | {"MATERIALX_SEARCH_PATH": str(folder)})
     found = []
     for block in done.stdout.split(SEPARATOR)[:-1]:
         block = block.strip()
         if block.startswith("error: "):
             found.append(block)
         else:
-            found.append(np.array([line.split() for line in block.splitlines()], np.float32).reshape(-1, len(points), 4))
+            rows = np.array([line.split() for line in block.splitlines()], np.float32)
+            found.append(rows.reshape(-1, len(points), 4))
     return found

@@ -149,15 +149,17 @@ class Surface:
         settings = gen_shader.GenContext(generator)
         settings.registerSourceCodeSearchPath(search_path())
         shader = generator.generate("shader", output, settings)
-        place = "gl_PointSize = 1.0; gl_Position = vec4((float(gl_VertexID) + 0.5) * 2.0 / float(count) - 1.0, 0.0, 0.0, 1.0);"
+        place = ("float at = (float(gl_VertexID) + 0.5) * 2.0 / float(count) - 1.0;"
+                 "gl_PointSize = 1.0; gl_Position = vec4(at, 0.0, 0.0, 1.0);")
         vertex = re.sub(r"gl_Position = [^;]+;", place, shader.getSourceCode("vertex"))
         vertex = vertex.replace("#version 400", "#version 400\nuniform int count;")
         program = self.context.program(vertex_shader=vertex, fragment_shader=shader.getSourceCode("pixel"))
         matrix = np.eye(4)
         matrix[3, :3] = ORIGIN
+        inverse = np.linalg.inv(matrix)
         uniforms = {"count": self.count, "u_viewPosition": VIEWER, "u_worldMatrix": matrix,
-                    "u_worldInverseMatrix": np.linalg.inv(matrix), "u_worldInverseTransposeMatrix": np.linalg.inv(matrix).T,
-                    "u_worldTransposeMatrix": matrix.T}
+                    "u_worldTransposeMatrix": matrix.T, "u_worldInverseMatrix": inverse,
+                    "u_worldInverseTransposeMatrix": inverse.T}
         for name, value in uniforms.items():
             if name in program:
                 program[name] = value if isinstance(value, int) else tuple(np.ravel(value))

@@ -14,10 +14,10 @@ import numpy as np
 import PIL.Image
 
 import stock
+from stock_inputs import PICTURE, positive, sample, wide
 from support import missing, parse, report
 
 TRIALS = 100
-PICTURE = "picture.png"
 SURFACE_POINTS = 32
 LIBRARY_TRIALS = 2
 # Greatest difference from MaterialX's values, relative to those beyond 1. Nodegraphs run in our own arithmetic: what is
@@ -33,8 +33,6 @@ GLSL_BOUNDS = {
     # The extinction is the root of a difference of large numbers.
     "artistic_ior": 2e-5,
 }
-
-
 # Definitions of which nothing but the type of what they are given says which one is meant.
 TYPED_BY_INPUT = {"convert"}
 # Matrices are the constants of transformmatrix here: nothing computes with them.
@@ -45,88 +43,14 @@ ELSEWHERE = {
     "image": "MaterialX leaves it to the texture unit",
     "swizzle": "MaterialX 1.39 no longer has it",
 }
-
 # What of MaterialX's library is not compared, and why.
 NOT_COMPARED = {
     "UsdPrimvarReader": "no mesh of ours has properties",
     "tiledhexagons": "compares the root of a negative number",
 }
 # What of it is not read: graphs with constants that are matrices, and one that needs derivatives.
-UNREAD = {"acescg_to_lin_rec709", "adobergb_to_lin_rec709", "bump", "g22_ap1_to_lin_rec709", "lin_adobergb_to_lin_rec709",
-          "lin_displayp3_to_lin_rec709", "srgb_displayp3_to_lin_rec709"}
-
-
-def nonzero(shape, rng):
-    return rng.choice([-1.0, 1.0], shape) * rng.uniform(0.1, 3.0, shape)
-
-
-def positive(shape, rng):
-    return rng.uniform(0.05, 3.0, shape)
-
-
-def unit(shape, rng):
-    return rng.uniform(0.0, 1.0, shape)
-
-
-def signed_unit(shape, rng):
-    return rng.uniform(-1.0, 1.0, shape)
-
-
-def wide(shape, rng):
-    """What most inputs get: ends, numbers between and beyond."""
-    kinds = [np.zeros(shape), np.ones(shape), unit(shape, rng), rng.uniform(-3.0, 3.0, shape)]
-    return np.choose(rng.choice(4, shape, p=[0.15, 0.1, 0.4, 0.35]), kinds)
-
-
-# Inputs that GLSL or MaterialX leave undefined somewhere, and what is drawn in place of `wide`.
-DOMAINS = {
-    ("acos", "in"): signed_unit,
-    ("artistic_ior", "edge_color"): unit,
-    ("artistic_ior", "reflectivity"): unit,
-    ("asin", "in"): signed_unit,
-    ("atan2", "inx"): nonzero,
-    ("clamp", "high"): positive,
-    ("clamp", "low"): lambda shape, rng: -positive(shape, rng),
-    ("divide", "in2"): nonzero,
-    ("ln", "in"): positive,
-    ("modulo", "in2"): nonzero,
-    ("normalmap", "bitangent"): nonzero,
-    ("normalmap", "in"): lambda shape, rng: unit(shape, rng) * rng.integers(0, 2),
-    ("normalmap", "normal"): nonzero,
-    ("normalmap", "tangent"): nonzero,
-    ("normalize", "in"): nonzero,
-    ("place2d", "scale"): nonzero,
-    ("power", "in1"): positive,
-    ("range", "gamma"): positive,
-    ("range", "inhigh"): lambda shape, rng: 4.0 + unit(shape, rng),
-    ("remap", "inhigh"): lambda shape, rng: 4.0 + unit(shape, rng),
-    ("rotate3d", "axis"): nonzero,
-    ("safepower", "in1"): nonzero,
-    ("splitlr", "center"): positive,
-    ("splittb", "center"): positive,
-    ("sqrt", "in"): positive,
-}
-
-
-def sample(nodedef, port, rng, trial, numbers=wide):
-    """A value for an input: each of an enumeration's in turn, else random."""
-    category, name, kind = nodedef.getNodeString(), port.getName(), port.getType()
-    choices = stock.choices(port)
-    if choices:
-        return choices[trial % len(choices)]
-    if kind == "filename":
-        return PICTURE
-    if kind == "string":
-        return ""
-    width = stock.WIDTHS[kind]
-    if kind == "boolean":
-        return rng.integers(0, 2, width)
-    if kind == "integer":
-        if name == "index":
-            held = {"texcoord": 1, "geomcolor": 1, "tangent": 1, "bitangent": 1}.get(category)
-            return rng.integers(0, held or stock.WIDTHS[nodedef.getActiveInput("in").getType()], width)
-        return rng.integers(0 if name == "octaves" else -2, 6, width)
-    return DOMAINS.get((category, name), numbers)(width, rng)
+UNREAD = {"acescg_to_lin_rec709", "adobergb_to_lin_rec709", "bump", "g22_ap1_to_lin_rec709",
+          "lin_adobergb_to_lin_rec709", "lin_displayp3_to_lin_rec709", "srgb_displayp3_to_lin_rec709"}
 
 
 def by_graph(nodedef):
@@ -164,6 +88,9 @@ class Nodes(unittest.TestCase):
         self.faults = collections.defaultdict(list)
         self.started = time.monotonic()
 
+    def draw(self, nodedef, ports, trial, numbers=wide):
+        return {port.getName(): sample(nodedef, port, self.rng, trial, numbers) for port in ports}
+
     def none_wrong(self, name, cases, nodedefs):
         categories = {d.getNodeString() for d in nodedefs}
         report(f"{name}: {cases} cases of {len(nodedefs)} definitions in {len(categories)} categories,",
@@ -193,8 +120,7 @@ class Nodes(unittest.TestCase):
             for trial in range(TRIALS):
                 # The type of what is converted says which definition is meant.
                 kept = lambda port: nodedef.getNodeString() in TYPED_BY_INPUT or self.rng.random() < 0.8
-                values = {port.getName(): sample(nodedef, port, self.rng, trial)
-                          for port in nodedef.getActiveInputs() if kept(port)}
+                values = self.draw(nodedef, filter(kept, nodedef.getActiveInputs()), trial)
                 cases.append((nodedef, values))
                 bodies += [stock.node(nodedef, values), copy + stock.node(nodedef, values, category)]
         with tempfile.TemporaryDirectory() as folder:
@@ -206,7 +132,7 @@ class Nodes(unittest.TestCase):
         self.none_wrong("graphs", len(cases), nodedefs)
 
     def test_defaults(self):
-        """An input that is left out is MaterialX's default, or the geometry that it names, whatever the other inputs are."""
+        """An input that is left out is MaterialX's default, or the geometry that it names, whatever the others are."""
         geometry = {"UV0": ("texcoord", "vector2", ""), "Pobject": ("position", "vector3", "object"),
                     "Nworld": ("normal", "vector3", "world"), "Tworld": ("tangent", "vector3", "world"),
                     "Bworld": ("bitangent", "vector3", "world"), "Vworld": ("viewdirection", "vector3", "world")}
@@ -218,14 +144,16 @@ class Nodes(unittest.TestCase):
                 # Without it nothing says which definition is meant.
                 if port.getType() == "filename" or nodedef.getNodeString() in TYPED_BY_INPUT:
                     continue
-                values = {other.getName(): sample(nodedef, other, self.rng, trial) for other in ports
-                          if other.getName() != port.getName() and other.getType() != "filename"}
+                others = [other for other in ports
+                          if other.getName() != port.getName() and other.getType() != "filename"]
+                values = self.draw(nodedef, others, trial)
                 named = port.getAttribute("defaultgeomprop")
                 given, before = {port.getName(): port.getValueString()}, ""
                 if named:
                     category, kind, space = geometry[named]
                     space = f'<input name="space" type="string" value="{space}"/>' if space else ""
-                    given, before = {port.getName(): f"@{category}"}, f'<{category} name="{category}" type="{kind}">{space}</{category}>'
+                    given = {port.getName(): f"@{category}"}
+                    before = f'<{category} name="{category}" type="{kind}">{space}</{category}>'
                 cases.append((nodedef, port.getName(), values))
                 bodies += [stock.node(nodedef, values), before + stock.node(nodedef, values | given)]
         found = stock.ours(bodies, points)
@@ -233,7 +161,8 @@ class Nodes(unittest.TestCase):
             if isinstance(without, str) or isinstance(given, str):
                 self.faults[f"{nodedef.getName()} {name}"].append(without if isinstance(without, str) else given)
             elif not np.array_equal(without, given, equal_nan=True):
-                self.faults[f"{nodedef.getName()} {name}"].append(f"{without.tolist()}, given {given.tolist()}, others {values}")
+                fault = f"{without.tolist()}, given {given.tolist()}, others {values}"
+                self.faults[f"{nodedef.getName()} {name}"].append(fault)
         self.none_wrong("defaults", len(cases), self.nodedefs)
 
     def test_ports(self):
@@ -262,7 +191,8 @@ class Nodes(unittest.TestCase):
                     self.faults[f"{category} {kind}"].append(f"{'is ours' if is_ours else 'is not ours'}, {own}")
             elif name != "nonsense":
                 if is_ours != ((name, given) in wanted[category, kind]):
-                    self.faults[f"{category} {kind} {name}"].append(f"{given} is {'' if is_ours else 'not '}ours, {own}")
+                    fault = f"{given} is {'' if is_ours else 'not '}ours, {own}"
+                    self.faults[f"{category} {kind} {name}"].append(fault)
             elif given == "float":
                 # MaterialX 1.38 had a space.
                 names = {name for name, _ in wanted[category, kind]} | ({"space"} if category == "normalmap" else set())
@@ -284,7 +214,8 @@ class Nodes(unittest.TestCase):
             named = ("rgba" if given.startswith("color") else "xyzw")[:len(values)] + "01"
             channels = "".join(self.rng.choice(list(named), stock.WIDTHS[kind]))
             cases.append([int(c) if c in "01" else values[places[c]] for c in channels])
-            bodies.append(f'<swizzle name="p" type="{kind}"><input name="in" type="{given}" {stock.fed(given, values)}/>'
+            fed = stock.fed(given, values)
+            bodies.append(f'<swizzle name="p" type="{kind}"><input name="in" type="{given}" {fed}/>'
                           f'<input name="channels" type="string" value="{channels}"/></swizzle>'
                           f'<output name="o" type="{kind}" nodename="p"/>')
         for wanted, own, body in zip(cases, stock.ours(bodies), bodies, strict=True):
@@ -302,13 +233,13 @@ class Nodes(unittest.TestCase):
         module, context = self.gpu()
         nodedefs = [d for d in self.nodedefs if by_glsl(d)]
         cases, bodies = [], []
-        for category, group in itertools.groupby(sorted(nodedefs, key=lambda d: d.getNodeString()), lambda d: d.getNodeString()):
-            group = list(group)
+        for category in sorted({d.getNodeString() for d in nodedefs}):
+            group = [d for d in nodedefs if d.getNodeString() == category]
             runner = module.Runner(context, group)
             for nodedef in group:
                 # A string is a note: the code doesn't take it.
                 ports = [port for port in nodedef.getActiveInputs() if port.getType() != "string"]
-                drawn = [{port.getName(): sample(nodedef, port, self.rng, trial) for port in ports} for trial in range(TRIALS)]
+                drawn = [self.draw(nodedef, ports, trial) for trial in range(TRIALS)]
                 theirs = runner.run(nodedef, [[values[port.getName()] for port in ports] for values in drawn])
                 for row, values in enumerate(drawn):
                     cases.append((nodedef, values, theirs[:, row:row + 1]))
@@ -334,7 +265,7 @@ class Nodes(unittest.TestCase):
             spaces = ["model", "object", "world"] + [""] * (len(names) == 2)
             for chosen in itertools.product(spaces, repeat=len(names)):
                 ports = [port for port in nodedef.getActiveInputs() if port.getName() not in names]
-                values = {port.getName(): sample(nodedef, port, self.rng, 0) for port in ports} | dict(zip(names, chosen))
+                values = self.draw(nodedef, ports, 0) | dict(zip(names, chosen))
                 body = stock.node(nodedef, values)
                 document = parse(stock.document(body), self.library)
                 theirs = surface.run(document.getOutput("o0"))
@@ -347,7 +278,7 @@ class Nodes(unittest.TestCase):
         self.none_wrong("geometry", cases, nodedefs)
 
     def test_values_of_library(self):
-        """Nodes that MaterialX's library defines as graphs and we don't build in, read with it, at points of an object."""
+        """Nodes that MaterialX's library defines as graphs and we don't build in, at points of an object."""
         module, context = self.gpu()
         surface = module.Surface(context, SURFACE_POINTS, self.rng)
         nodedefs = [d for d in self.library.getNodeDefs() if stock.is_pattern(d) and d.getImplementation("genglsl")
@@ -356,9 +287,10 @@ class Nodes(unittest.TestCase):
         folder = pathlib.Path(mx.getDefaultDataSearchPath().asString())
         cases, unread = [], set()
         for nodedef, trial in itertools.product(nodedefs, range(LIBRARY_TRIALS)):
-            # What they do with numbers below 0 is mostly what the GPU leaves undefined; jitter is an angle of 90,000 degrees.
-            values = {port.getName(): sample(nodedef, port, self.rng, trial, positive) for port in nodedef.getActiveInputs()
-                      if not port.hasAttribute("defaultgeomprop") and port.getName() != "jitter"}
+            # Below 0 the GPU leaves much of it undefined, and jitter is an angle of 90,000 degrees.
+            ports = [port for port in nodedef.getActiveInputs()
+                     if not port.hasAttribute("defaultgeomprop") and port.getName() != "jitter"]
+            values = self.draw(nodedef, ports, trial, positive)
             cases.append((nodedef, values, stock.node(nodedef, values)))
         found = stock.ours([body for _, _, body in cases], surface.points, folder)
         for (nodedef, values, body), own in zip(cases, found, strict=True):
