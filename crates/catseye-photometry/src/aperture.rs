@@ -1,22 +1,24 @@
 //! The finite apertures of source and receiver: what an instrument sees is a mean over both.
 //!
-//! An instrument's lamp and photoreceptor stand behind round apertures (CIE 54.2, ASTM E810: at most 0.1 degrees as
-//! seen from the specimen), and so are lobes as narrow as an aperture measured wider than they are. A model that is
-//! fitted to such data is blurred in the same way by [`ApertureRule::mean`]; the data are not sharpened.
+//! An instrument's lamp and photoreceptor stand behind round apertures (CIE 54.2, ASTM E810: at most 0.1
+//! degrees as seen from the specimen), and so are lobes as narrow as an aperture measured wider than they
+//! are. A model that is fitted to such data is blurred in the same way by [`ApertureRule::mean`]; the data
+//! are not sharpened.
 //!
 //! # The rule
 //!
-//! With offsets x and y, evenly spread over disks of radii a (source) and b (receiver), the mean is an integral over four
-//! dimensions. A retro lobe depends strongly on the difference y - x only; along with x + y it changes as slowly as
-//! cosines do. So the rule integrates over the difference, whose density is the area that the two disks have in common
-//! when one is displaced by it, and puts x and y at their means given the difference: the centroid of that common area.
-//! What is left out is of second order, the variance of x given the difference times the curvature along x + y. For
-//! apertures of 0.1 degrees and lobes no narrower than they are it is below 1e-4 up to entrance angles of 60 degrees, and
-//! grows with the square of the aperture. In the 30 m geometry of road markings it is 1e-4 for lobes that send light
-//! there, and a few per cent in the tails of those that don't.
+//! With offsets x and y, evenly spread over disks of radii a (source) and b (receiver), the mean is an
+//! integral over four dimensions. A retro lobe depends strongly on the difference y - x only; along with x +
+//! y it changes as slowly as cosines do. So the rule integrates over the difference, whose density is the
+//! area that the two disks have in common when one is displaced by it, and puts x and y at their means given
+//! the difference: the centroid of that common area. What is left out is of second order, the variance of x
+//! given the difference times the curvature along x + y. For apertures of 0.1 degrees and lobes no narrower
+//! than they are it is below 1e-4 up to entrance angles of 60 degrees, and grows with the square of the
+//! aperture. In the 30 m geometry of road markings it is 1e-4 for lobes that send light there, and a few per
+//! cent in the tails of those that don't.
 //!
-//! Along the radius s of the difference the nodes are those of Gauss' quadrature in s^2 with the weight of that density,
-//! around it they are evenly spaced.
+//! Along the radius s of the difference the nodes are those of Gauss' quadrature in s^2 with the weight of
+//! that density, around it they are evenly spaced.
 
 use std::f64::consts::TAU;
 
@@ -65,14 +67,16 @@ impl Apertures {
         self.rule_of_degree(DEGREE)
     }
 
-    /// The rule that is exact for polynomials up to a degree, at most 95, which takes about a quarter of its square of
-    /// points. Degree 7, 16 points, is within 1e-4 for lobes twice as wide as the aperture, and 4e-3 for those as wide.
+    /// The rule that is exact for polynomials up to a degree, at most 95, which takes about a quarter of its
+    /// square of points. Degree 7, 16 points, is within 1e-4 for lobes twice as wide as the aperture, and
+    /// 4e-3 for those as wide.
     ///
     /// # Errors
     /// As [`Apertures::rule`].
     pub fn rule_of_degree(self, degree: usize) -> Result<ApertureRule, Error> {
         let degree = degree.min(MAX_DEGREE);
-        // Odd powers of the radius vanish around the circle: n nodes in its square are exact to the power 4 n - 2.
+        // Odd powers of the radius vanish around the circle: n nodes in its square are exact to the power 4 n
+        // - 2.
         let (radii, azimuths) = ((degree / 2 + 2) / 2, degree + 1);
         for (name, diameter) in
             [("the source's aperture", self.source), ("the receiver's aperture", self.receiver)]
@@ -121,11 +125,11 @@ pub struct ApertureRule {
 }
 
 impl ApertureRule {
-    /// Pairs of directions (receiver, source) around the axes `wo` and `wi` (unit vectors), and their weights, which add
-    /// up to 1.
+    /// Pairs of directions (receiver, source) around the axes `wo` and `wi` (unit vectors), and their
+    /// weights, which add up to 1.
     ///
-    /// Exact for polynomials in the difference of the two offsets up to the rule's degree, 15 (for equal apertures also times a
-    /// linear function of their sum).
+    /// Exact for polynomials in the difference of the two offsets up to the rule's degree, 15 (for equal
+    /// apertures also times a linear function of their sum).
     pub fn directions(
         &self,
         wo: Vec3<f64>,
@@ -141,8 +145,9 @@ impl ApertureRule {
 
     /// The mean of `value(wo, wi)` over both apertures.
     ///
-    /// Of f cos cos it is the `R_A` that the instrument reads. Where the lobe's full width at half maximum is at least the
-    /// wider aperture's diameter the error is below 1e-4 of the mean or of the value on the axes, down to 1e-6 of the peak.
+    /// Of f cos cos it is the `R_A` that the instrument reads. Where the lobe's full width at half maximum is
+    /// at least the wider aperture's diameter the error is below 1e-4 of the mean or of the value on the
+    /// axes, down to 1e-6 of the peak.
     pub fn mean(
         &self,
         wo: Vec3<f64>,
@@ -182,8 +187,9 @@ impl Disks {
         self.source + self.receiver
     }
 
-    /// Areas of the two segments that make up what the disks have in common at a distance s of their centres: the
-    /// source's beyond the common chord, the receiver's before it. Inside one another, one is 0 and the other a disk.
+    /// Areas of the two segments that make up what the disks have in common at a distance s of their centres:
+    /// the source's beyond the common chord, the receiver's before it. Inside one another, one is 0 and the
+    /// other a disk.
     fn segments(self, s: f64) -> [f64; 2] {
         let (a, b) = (self.source, self.receiver);
         // Distance of the chord from the source's centre.
@@ -204,8 +210,8 @@ impl Disks {
 
     /// The mean of the source's offset along the difference, given its length s.
     ///
-    /// The source's disk and the receiver's, displaced by -s, meet around it: the first moment of their common area
-    /// about the source's centre is s times the receiver's segment, as those of the chord cancel.
+    /// The source's disk and the receiver's, displaced by -s, meet around it: the first moment of their
+    /// common area about the source's centre is s times the receiver's segment, as those of the chord cancel.
     fn source_at(self, s: f64) -> f64 {
         if self.source == 0.0 || s == 0.0 {
             return 0.0;
@@ -224,8 +230,8 @@ impl Disks {
         let point_like = self.source.min(self.receiver) == 0.0;
         let inner = (self.source - self.receiver).abs();
         let mut points = Vec::new();
-        // Up to `inner` one disk lies within the other. At the ends of both pieces the overlap has roots, which a
-        // substitution that leaves them slowly takes away: its derivative is 630 (u (1 - u))^4.
+        // Up to `inner` one disk lies within the other. At the ends of both pieces the overlap has roots,
+        // which a substitution that leaves them slowly takes away: its derivative is 630 (u (1 - u))^4.
         for (from, to) in [(0.0, inner), (inner, self.reach())].into_iter().filter(|(from, to)| to > from) {
             for i in 0..POINTS {
                 let u = (f64::from(i) + 0.5) / f64::from(POINTS);

@@ -7,8 +7,8 @@ pub const LUMINANCE: [f64; 3] = [0.2126, 0.7152, 0.0722];
 
 /// Linear Rec. 709 of the colours that tables name, not normalised.
 ///
-/// A table states how much light comes back, in a chromaticity region that is no colour. These stand in its middle: they
-/// are the project's choice, close to painted signs in daylight, and `--colour` replaces them.
+/// A table states how much light comes back, in a chromaticity region that is no colour. These stand in its
+/// middle: they are the project's choice, close to painted signs in daylight, and `--colour` replaces them.
 const NAMED: &[(&str, [f64; 3])] = &[
     ("white", [1.0, 1.0, 1.0]),
     ("silver", [1.0, 1.0, 1.0]),
@@ -35,7 +35,8 @@ impl Colour {
     /// White.
     pub const WHITE: Self = Self([1.0; 3]);
 
-    /// The colour with the hue of a linear Rec. 709 triple; `None` for values below 0, NaN or infinite, and for black.
+    /// The colour with the hue of a linear Rec. 709 triple; `None` for values below 0, NaN or infinite, and
+    /// for black.
     #[must_use]
     pub fn from_rec709(rgb: [f64; 3]) -> Option<Self> {
         let luminance = luminance(rgb);
@@ -43,8 +44,8 @@ impl Colour {
         good.then(|| Self(rgb.map(|x| x / luminance)))
     }
 
-    /// The colour that a table's text names first, the longest name where several begin there: `white (silver)`,
-    /// `yellow / fluorescent yellow`. `None` where it names none that is known.
+    /// The colour that a table's text names first, the longest name where several begin there:
+    /// `white (silver)`, `yellow / fluorescent yellow`. `None` where it names none that is known.
     #[must_use]
     pub fn named(text: &str) -> Option<Self> {
         let text = text.to_lowercase();

@@ -1,7 +1,7 @@
 //! Numbers as people and documents read them.
 
-/// A number with some significant digits, at least 1, without an exponent and without zeros at the end. 0, infinities and
-/// NaN as Rust prints them.
+/// A number with some significant digits, at least 1, without an exponent and without zeros at the end. 0,
+/// infinities and NaN as Rust prints them.
 #[must_use]
 pub fn significant(value: f64, digits: i32) -> String {
     if value == 0.0 || !value.is_finite() {

@@ -3,12 +3,12 @@
 /// Least cosine that a law is evaluated at, so that it is finite: 89.4 degrees.
 pub const LEAST_COSINE: f64 = 0.01;
 
-/// The law `F = (1 + (tan beta / tan b0)^p)^(-q/p)` of the entrance angle beta: flat at first, one bend at `b0`, and then
-/// a power `q` of the tangent.
+/// The law `F = (1 + (tan beta / tan b0)^p)^(-q/p)` of the entrance angle beta: flat at first, one bend at
+/// `b0`, and then a power `q` of the tangent.
 ///
-/// What real sheeting returns at the observation angle 0 follows F alone; the width of the lobe is another matter
-/// (docs/theory.md, section 10). With `p` = 2 and `b0` = 45 degrees F is cos^q, with `p` = `q` Hill's law, and a great `p`
-/// makes a sharp bend. However sharp, the slope of log F over log tan beta is at most q.
+/// What real sheeting returns at the observation angle 0 follows F alone; the width of the lobe is another
+/// matter (docs/theory.md, section 10). With `p` = 2 and `b0` = 45 degrees F is cos^q, with `p` = `q` Hill's
+/// law, and a great `p` makes a sharp bend. However sharp, the slope of log F over log tan beta is at most q.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct EntranceLaw {
     /// q: the slope far beyond the bend.
@@ -64,7 +64,8 @@ impl EntranceLaw {
     }
 }
 
-/// The logarithm of the squared tangent for a cosine: 1/c^2 - 1, with a floor that keeps it finite at normal incidence.
+/// The logarithm of the squared tangent for a cosine: 1/c^2 - 1, with a floor that keeps it finite at normal
+/// incidence.
 pub(crate) fn log_squared_tangent(cosine: f64) -> f64 {
     let c = cosine.clamp(LEAST_COSINE, 1.0);
     ((1.0 - c) * (1.0 + c) / (c * c)).max(f64::MIN_POSITIVE).ln()

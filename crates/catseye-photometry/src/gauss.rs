@@ -1,10 +1,11 @@
 //! Gauss' quadrature for a weight that is known by its values.
 
-/// Gauss' quadrature for a weight function that is given by many points (node, weight): exact for polynomials up to the
-/// degree 2 `count` - 1 in the node.
+/// Gauss' quadrature for a weight function that is given by many points (node, weight): exact for polynomials
+/// up to the degree 2 `count` - 1 in the node.
 ///
-/// The orthonormal polynomials come from the discretised Stieltjes procedure (Gautschi, "Orthogonal Polynomials:
-/// Computation and Approximation", 2004, section 2.2.3); their roots are found between those of the one before.
+/// The orthonormal polynomials come from the discretised Stieltjes procedure (Gautschi, "Orthogonal
+/// Polynomials: Computation and Approximation", 2004, section 2.2.3); their roots are found between those of
+/// the one before.
 pub(crate) fn gauss(measure: &[(f64, f64)], count: usize) -> Vec<(f64, f64)> {
     let inner = |f: &dyn Fn(f64) -> f64| measure.iter().map(|&(t, w)| w * f(t)).sum::<f64>();
     let mut recurrence: Vec<[f64; 2]> = Vec::new();

@@ -5,7 +5,8 @@ use catseye::Vec3;
 /// Length of a projected direction below which it has no azimuth: the angle is 0 to rounding.
 const DEGENERATE: f64 = 1e-14;
 
-/// Directions to the receiver and to the source in the local frame: z is the retroreflector axis, x the datum axis.
+/// Directions to the receiver and to the source in the local frame: z is the retroreflector axis, x the datum
+/// axis.
 ///
 /// In catseye's terms z is the shading normal and x is `tangent_u`. Both directions have unit length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,19 +19,21 @@ pub struct Geometry {
 
 /// The CIE goniometer system (CIE 54.2, ASTM E808), in radians.
 ///
-/// The laboratory's frame, in which the signs are said once: the illumination axis is +Z, the observation half-plane
-/// extends from it towards +X, and the receiver is at `(sin alpha, 0, cos alpha)`. The first axis is Y, the normal of
-/// that half-plane. The retroreflector axis is `(sin b1 cos b2, sin b2, cos b1 cos b2)`: a positive `entrance_1` tips it
-/// towards the receiver, and at the -4 degrees of sheeting the glare of the front surface, which leaves at twice that
-/// angle, falls on the side away from the receiver. The positive second axis is `(cos b1, 0, -sin b1)`. Seen from the
-/// source, `rotation` turns counter-clockwise, which is right-handed about the retroreflector axis.
+/// The laboratory's frame, in which the signs are said once: the illumination axis is +Z, the observation
+/// half-plane extends from it towards +X, and the receiver is at `(sin alpha, 0, cos alpha)`. The first axis
+/// is Y, the normal of that half-plane. The retroreflector axis is `(sin b1 cos b2, sin b2, cos b1 cos b2)`:
+/// a positive `entrance_1` tips it towards the receiver, and at the -4 degrees of sheeting the glare of the
+/// front surface, which leaves at twice that angle, falls on the side away from the receiver. The positive
+/// second axis is `(cos b1, 0, -sin b1)`. Seen from the source, `rotation` turns counter-clockwise, which is
+/// right-handed about the retroreflector axis.
 ///
-/// What of this public texts confirm: the observation angle, cos beta = cos `beta_1` cos `beta_2`, and by consequence the
-/// sign of `entrance_1`, as the 30 m geometry of road markings has the receiver between source and normal at a positive
-/// entrance angle and presentation angle 0 (ASTM E1710, D4061). The senses of `entrance_2` (towards +Y = Z x X) and of the
-/// angles about an axis (counter-clockwise seen from the source) were not found in public and not checked against the
-/// text of E808. No table of this crate has an `entrance_2`, and the opposite senses mirror the geometry in the observation
-/// half-plane, which no isotropic surface and no pair of anisotropic axes in that plane can tell.
+/// What of this public texts confirm: the observation angle, cos beta = cos `beta_1` cos `beta_2`, and by
+/// consequence the sign of `entrance_1`, as the 30 m geometry of road markings has the receiver between
+/// source and normal at a positive entrance angle and presentation angle 0 (ASTM E1710, D4061). The senses of
+/// `entrance_2` (towards +Y = Z x X) and of the angles about an axis (counter-clockwise seen from the source)
+/// were not found in public and not checked against the text of E808. No table of this crate has an
+/// `entrance_2`, and the opposite senses mirror the geometry in the observation half-plane, which no
+/// isotropic surface and no pair of anisotropic axes in that plane can tell.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Goniometer {
     /// Observation angle alpha, from the illumination axis to the observation axis, in `[0, pi]`.
@@ -40,41 +43,41 @@ pub struct Goniometer {
     /// Entrance angle component `beta_2`, from the observation half-plane to the retroreflector axis, in
     /// `[-pi/2, pi/2]`.
     pub entrance_2: f64,
-    /// Rotation angle epsilon, about the retroreflector axis from the positive second axis to the datum axis, in
-    /// `(-pi, pi]`.
+    /// Rotation angle epsilon, about the retroreflector axis from the positive second axis to the datum axis,
+    /// in `(-pi, pi]`.
     pub rotation: f64,
 }
 
 /// The intrinsic system of ASTM E808, which asks nothing of a goniometer's axes, in radians.
 ///
-/// Half-planes are bounded by the illumination axis: the entrance half-plane contains the retroreflector axis, the
-/// observation half-plane the observation axis. Counter-clockwise is as seen from the source.
+/// Half-planes are bounded by the illumination axis: the entrance half-plane contains the retroreflector
+/// axis, the observation half-plane the observation axis. Counter-clockwise is as seen from the source.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Intrinsic {
     /// Observation angle alpha, from the illumination axis to the observation axis, in `[0, pi]`.
     pub observation: f64,
     /// Entrance angle beta, from the illumination axis to the retroreflector axis, in `[0, pi]`.
     pub entrance: f64,
-    /// Presentation angle gamma, counter-clockwise from the entrance half-plane to the observation half-plane, in
-    /// `(-pi, pi]`.
+    /// Presentation angle gamma, counter-clockwise from the entrance half-plane to the observation
+    /// half-plane, in `(-pi, pi]`.
     pub presentation: f64,
-    /// Orientation angle `omega_s`, counter-clockwise about the retroreflector axis from the entrance half-plane to the
-    /// datum axis, in `(-pi, pi]`.
+    /// Orientation angle `omega_s`, counter-clockwise about the retroreflector axis from the entrance
+    /// half-plane to the datum axis, in `(-pi, pi]`.
     pub orientation: f64,
 }
 
 /// The road-marking system: directions by their elevation above the surface, in radians.
 ///
-/// The elevations are the complements of entrance and viewing angle (ASTM E808 calls them co-entrance and co-viewing
-/// angle, EN 1436 illumination and observation angle).
+/// The elevations are the complements of entrance and viewing angle (ASTM E808 calls them co-entrance and
+/// co-viewing angle, EN 1436 illumination and observation angle).
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RoadMarking {
     /// Elevation of the source: the co-entrance angle, in `[-pi/2, pi/2]`.
     pub co_entrance: f64,
     /// Elevation of the receiver: the co-viewing angle, in `[-pi/2, pi/2]`.
     pub co_viewing: f64,
-    /// Dihedral angle, counter-clockwise seen from above from the vertical plane of the source to that of the receiver,
-    /// in `(-pi, pi]`. For a driver's eye above the headlamp it is 0.
+    /// Dihedral angle, counter-clockwise seen from above from the vertical plane of the source to that of the
+    /// receiver, in `(-pi, pi]`. For a driver's eye above the headlamp it is 0.
     pub dihedral: f64,
     /// Orientation angle `omega_s`, as in [`Intrinsic`]: pi for a datum axis that points towards the source.
     pub orientation: f64,
@@ -107,8 +110,8 @@ impl Intrinsic {
 }
 
 impl RoadMarking {
-    /// The 30 m geometry of EN 1436 and ASTM E1710: a driver 30 m from the marking, illumination at 1.24 degrees and
-    /// view at 2.29 degrees above the road; observation angle 1.05, entrance angle 88.76 degrees.
+    /// The 30 m geometry of EN 1436 and ASTM E1710: a driver 30 m from the marking, illumination at 1.24
+    /// degrees and view at 2.29 degrees above the road; observation angle 1.05, entrance angle 88.76 degrees.
     pub const STANDARD_30_M_DEG: [f64; 4] = [1.24, 2.29, 0.0, 180.0];
 
     /// The angles given in degrees.
@@ -131,8 +134,8 @@ impl RoadMarking {
 }
 
 impl Geometry {
-    /// Observation angle alpha, between source and receiver, in `[0, pi]`: from the chord, as the cosine of a tenth of a
-    /// degree has no digits left.
+    /// Observation angle alpha, between source and receiver, in `[0, pi]`: from the chord, as the cosine of a
+    /// tenth of a degree has no digits left.
     #[must_use]
     pub fn observation(&self) -> f64 {
         angle_between(self.wo, self.wi)
@@ -162,7 +165,8 @@ impl Geometry {
         [wo.z * wi.x - wi.z * wo.x, wo.z * wi.y - wi.z * wo.y]
     }
 
-    /// The direction of the offset up to its sign, in `[0, pi)`: that in which the sample is turned to the instrument.
+    /// The direction of the offset up to its sign, in `[0, pi)`: that in which the sample is turned to the
+    /// instrument.
     pub(crate) fn offset_plane(&self) -> f64 {
         let [x, y] = self.scaled_offset();
         y.atan2(x).rem_euclid(std::f64::consts::PI)
@@ -180,7 +184,8 @@ impl From<Goniometer> for Geometry {
     fn from(angles: Goniometer) -> Self {
         let Goniometer { observation, entrance_1, entrance_2, rotation } = angles;
         let (sin_2, cos_2) = entrance_2.sin_cos();
-        // Both axes lie in the observation half-plane, at an angle from the plane of first and retroreflector axis.
+        // Both axes lie in the observation half-plane, at an angle from the plane of first and retroreflector
+        // axis.
         let in_half_plane = |angle: f64| {
             let (sin, cos) = angle.sin_cos();
             Vec3::new(-sin, -sin_2 * cos, cos_2 * cos)
@@ -218,13 +223,14 @@ impl From<RoadMarking> for Geometry {
 }
 
 impl From<Geometry> for Goniometer {
-    /// Where source and receiver coincide the observation half-plane is taken to contain the retroreflector axis, and
-    /// where that coincides, too, the datum axis.
+    /// Where source and receiver coincide the observation half-plane is taken to contain the retroreflector
+    /// axis, and where that coincides, too, the datum axis.
     fn from(geometry: Geometry) -> Self {
         let z = geometry.wi;
         let y = normal_of_half_plane(&geometry);
         let x = y.cross(z);
-        // The retroreflector axis is the local z axis: its components in the laboratory are the z of x, y and z.
+        // The retroreflector axis is the local z axis: its components in the laboratory are the z of x, y and
+        // z.
         let entrance_1 = if x.z.hypot(z.z) > DEGENERATE { x.z.atan2(z.z) } else { 0.0 };
         let entrance_2 = y.z.atan2(x.z.hypot(z.z));
         let (sin, cos) = entrance_1.sin_cos();
@@ -281,7 +287,8 @@ fn normal_of_half_plane(geometry: &Geometry) -> Vec3<f64> {
     [from_receiver, from_axis].into_iter().find(is_long).unwrap_or(from_datum).normalized()
 }
 
-/// The angle between two unit vectors: 2 asin of half the chord, or from the sum where they are nearly opposite.
+/// The angle between two unit vectors: 2 asin of half the chord, or from the sum where they are nearly
+/// opposite.
 fn angle_between(a: Vec3<f64>, b: Vec3<f64>) -> f64 {
     let (apart, together) = (a - b, a + b);
     2.0 * apart.dot(apart).sqrt().atan2(together.dot(together).sqrt())

@@ -1,7 +1,7 @@
 //! Between what a lobe looks like in a photometer and its parameters: width and height.
 //!
-//! At entrance angle 0 the disk lobe has a closed form over the observation angle alpha (docs/theory.md, section 10). With
-//! s = tan(alpha/2)^2, the square of the disk offset there:
+//! At entrance angle 0 the disk lobe has a closed form over the observation angle alpha (docs/theory.md,
+//! section 10). With s = tan(alpha/2)^2, the square of the disk offset there:
 //!
 //! ```text
 //! R_A(alpha) = R_A(0) (1-s)^(n+3) / (1+s)        R_A(0) = tint (n+1) / (4 pi)
@@ -10,9 +10,10 @@
 //! so that the half-power angle and the exponent n = 2/r^2 follow from each other without approximation:
 //! `(1-s)^(n+3) = (1+s)/2`.
 //!
-//! The half-power angle is the observation angle at which `R_A` has fallen to half of its peak: half of the full width at
-//! half maximum, as the peak is at 0. It is the input `half_power_angle` of the node `retro_sheeting_surface`, in radians
-//! here; the node's factor of 0.014823438 per degree is the limit of narrow lobes, r = alpha / sqrt(2 ln 2).
+//! The half-power angle is the observation angle at which `R_A` has fallen to half of its peak: half of the
+//! full width at half maximum, as the peak is at 0. It is the input `half_power_angle` of the node
+//! `retro_sheeting_surface`, in radians here; the node's factor of 0.014823438 per degree is the limit of
+//! narrow lobes, r = alpha / sqrt(2 ln 2).
 
 use std::f64::consts::{FRAC_PI_2, LN_2, PI};
 
@@ -22,7 +23,8 @@ use crate::Error;
 
 /// tan^2 of half the half-power angle of the widest lobe, n = 0: the root of (1-s)^3 = (1+s)/2.
 const WIDEST: f64 = 0.164_877_651_518_633_5;
-/// Newton steps: from its start the iteration doubles its digits, and has them all after five at any roughness.
+/// Newton steps: from its start the iteration doubles its digits, and has them all after five at any
+/// roughness.
 const STEPS: usize = 8;
 
 /// The roughness of the lobe whose half-power angle at entrance angle 0 is `angle`, in radians.
@@ -69,8 +71,9 @@ pub fn widest_half_power_angle() -> f64 {
     2.0 * WIDEST.sqrt().atan()
 }
 
-/// The greatest coefficient of retro-reflection, `R_A` at observation angle 0 in cd/lx/m2, of a lobe with luminance `tint`
-/// and roughnesses along and across the tangent: `tint sqrt((n_u+1)(n_v+1)) / (4 pi)`, at every entrance angle.
+/// The greatest coefficient of retro-reflection, `R_A` at observation angle 0 in cd/lx/m2, of a lobe with
+/// luminance `tint` and roughnesses along and across the tangent: `tint sqrt((n_u+1)(n_v+1)) / (4 pi)`, at
+/// every entrance angle.
 ///
 /// Infinite for roughness 0, a Dirac lobe. NaN for what is negative or NaN.
 #[must_use]
@@ -82,7 +85,8 @@ pub fn peak_coefficient(tint: f64, [u, v]: [f64; 2]) -> f64 {
     tint / (4.0 * PI * width(u) * width(v))
 }
 
-/// The tint that gives a lobe the greatest coefficient `r_a` in cd/lx/m2: the inverse of [`peak_coefficient`].
+/// The tint that gives a lobe the greatest coefficient `r_a` in cd/lx/m2: the inverse of
+/// [`peak_coefficient`].
 ///
 /// More than 1 is no tint: no lobe of that width returns so much light.
 #[must_use]
@@ -93,7 +97,8 @@ pub fn tint_from_peak(r_a: f64, [u, v]: [f64; 2]) -> f64 {
     r_a * 4.0 * PI * width(u) * width(v)
 }
 
-/// `R_A` at entrance angle 0 and an observation angle in radians, relative to its peak, for a roughness in `(0, inf]`.
+/// `R_A` at entrance angle 0 and an observation angle in radians, relative to its peak, for a roughness in
+/// `(0, inf]`.
 ///
 /// 0 from 90 degrees on, where the receiver is behind the surface.
 #[must_use]

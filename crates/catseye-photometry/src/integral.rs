@@ -1,7 +1,8 @@
 //! The quantities that are integrals over directions: fractional retro-reflectance and diffuse illumination.
 //!
-//! Lobes are a hundredth of a degree to a hemisphere wide, and the integrand is not told how wide. Both integrals run in
-//! polar coordinates about the retro direction over the logarithm of the angle, which gives every width its points.
+//! Lobes are a hundredth of a degree to a hemisphere wide, and the integrand is not told how wide. Both
+//! integrals run in polar coordinates about the retro direction over the logarithm of the angle, which gives
+//! every width its points.
 
 use std::f64::consts::{PI, TAU};
 
@@ -9,25 +10,27 @@ use catseye::Vec3;
 
 use crate::Geometry;
 
-/// The smallest angle from the retro direction, in radians; within it the integrand is taken as constant. A tenth of the
-/// width of the narrowest lobe that is not Dirac, roughness 1e-4.
+/// The smallest angle from the retro direction, in radians; within it the integrand is taken as constant. A
+/// tenth of the width of the narrowest lobe that is not Dirac, roughness 1e-4.
 const SMALLEST: f64 = 1e-5;
 /// Intervals of the angle's logarithm, and of the azimuth. Checked against closed forms below: 1e-4.
 const ANGLES: usize = 240;
 const AZIMUTHS: usize = 48;
 
-/// `R_T`: the share of the flux from the source that leaves within `observation` of the direction back to it, whatever the
-/// azimuth (ASTM E808), for a source at the polar angle `entrance` in the plane of the datum axis. Radians.
+/// `R_T`: the share of the flux from the source that leaves within `observation` of the direction back to it,
+/// whatever the azimuth (ASTM E808), for a source at the polar angle `entrance` in the plane of the datum
+/// axis. Radians.
 ///
-/// `brdf` gives f in 1/sr. The result has a relative error of 1e-4 for smooth lobes; the rest of a cone that the
-/// horizon cuts is left out.
+/// `brdf` gives f in 1/sr. The result has a relative error of 1e-4 for smooth lobes; the rest of a cone that
+/// the horizon cuts is left out.
 pub fn fractional_retro_reflectance(brdf: impl Fn(&Geometry) -> f64, entrance: f64, observation: f64) -> f64 {
     let wi = Vec3::from_angles(entrance, 0.0);
     cone(wi, observation.clamp(0.0, PI), |wo| brdf(&Geometry { wo, wi }) * wo.z)
 }
 
-/// `Q_d` in cd/lx/m2: luminance per illuminance on the surface under an evenly bright sky (EN 1436), for a receiver at the
-/// polar angle `viewing` in the plane of the datum axis, in radians; EN 1436 has 87.71 degrees.
+/// `Q_d` in cd/lx/m2: luminance per illuminance on the surface under an evenly bright sky (EN 1436), for a
+/// receiver at the polar angle `viewing` in the plane of the datum axis, in radians; EN 1436 has 87.71
+/// degrees.
 ///
 /// `brdf` gives f in 1/sr. A perfect white diffuser has 1/pi = 0.318.
 pub fn diffuse_luminance_coefficient(brdf: impl Fn(&Geometry) -> f64, viewing: f64) -> f64 {

@@ -13,10 +13,13 @@
 //! ```
 //!
 //! # Conventions
-//! - Angles are degrees where a name ends in `_deg`, radians elsewhere. Directions are those of [`catseye`]: unit vectors
-//!   in the local frame, pointing away from the surface. `wo` points to the receiver, `wi` to the source.
-//! - Everything is `f64`: a goniometer's angles are tenths of a degree, whose cosines differ from 1 in the sixth digit.
-//! - Values are in the SI units of their [`Quantity`]: cd/lx/m2, cd/lx, 1/sr or 1. Other units end where text is read.
+//! - Angles are degrees where a name ends in `_deg`, radians elsewhere. Directions are those of [`catseye`]:
+//!   unit vectors in the local frame, pointing away from the surface. `wo` points to the receiver, `wi` to
+//!   the source.
+//! - Everything is `f64`: a goniometer's angles are tenths of a degree, whose cosines differ from 1 in the
+//!   sixth digit.
+//! - Values are in the SI units of their [`Quantity`]: cd/lx/m2, cd/lx, 1/sr or 1. Other units end where text
+//!   is read.
 
 mod aperture;
 pub mod brdf;

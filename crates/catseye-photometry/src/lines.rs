@@ -2,8 +2,8 @@
 
 /// The line of the first record at or after a byte offset of a CSV text, counted from 1.
 ///
-/// The reader's own line numbers are off by the empty lines before a record, and by one after a CRLF. It counts from the
-/// start of the text: for the one place that a message names.
+/// The reader's own line numbers are off by the empty lines before a record, and by one after a CRLF. It
+/// counts from the start of the text: for the one place that a message names.
 #[must_use]
 pub fn line_of_record(text: &[u8], byte: u64) -> usize {
     LineCounter::new(text).of_record(byte)

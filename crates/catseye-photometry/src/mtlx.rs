@@ -31,11 +31,12 @@ const COSINE: &str = "entrance_cosine";
 /// The viewer's projection on the surface, as a node.
 const PROJECTION: &str = "view_projection";
 
-/// The sheeting as a MaterialX 1.39 document: lobes whose tints depend on the entrance angle, added to a diffuse base, under
-/// a coat.
+/// The sheeting as a MaterialX 1.39 document: lobes whose tints depend on the entrance angle, added to a
+/// diffuse base, under a coat.
 ///
-/// The nodes are those of MaterialX and `retro_reflective_bsdf`, in the back-vector model `generalized_schlick_bsdf` with
-/// `retroreflective`. A lobe that keeps its width has `tangent_u` along the viewer's projection and `roughness_u` over N.V.
+/// The nodes are those of MaterialX and `retro_reflective_bsdf`, in the back-vector model
+/// `generalized_schlick_bsdf` with `retroreflective`. A lobe that keeps its width has `tangent_u` along the
+/// viewer's projection and `roughness_u` over N.V.
 #[must_use]
 pub fn to_mtlx(sheeting: &Sheeting, text: &MaterialText<'_>) -> String {
     let mut document = Document::new(text.comment);
@@ -86,8 +87,8 @@ pub fn to_mtlx(sheeting: &Sheeting, text: &MaterialText<'_>) -> String {
     document.finish()
 }
 
-/// The nodes of the entrance laws and of the viewer's projection; for each lobe the name of what its tint is multiplied
-/// with, where there is something.
+/// The nodes of the entrance laws and of the viewer's projection; for each lobe the name of what its tint is
+/// multiplied with, where there is something.
 fn entrance_nodes(document: &mut Document, sheeting: &Sheeting) -> Vec<Option<String>> {
     if sheeting.lobes.iter().any(|lobe| lobe.entrance.is_some()) {
         let forward = ("faceforward", "boolean", Binding::Value("true".to_owned()));
@@ -202,7 +203,8 @@ impl Document {
         self.close(category);
     }
 
-    /// The direction to the viewer without what of it is along the normal; its sign does not matter to an ellipse.
+    /// The direction to the viewer without what of it is along the normal; its sign does not matter to an
+    /// ellipse.
     fn view_projection(&mut self) {
         let vector = |input: &'static str, node: &str| (input, "vector3", Binding::Node(node.to_owned()));
         let world = ("space", "string", Binding::Value("world".to_owned()));
@@ -232,8 +234,8 @@ impl Document {
         self.node("normalize", PROJECTION, "vector3", &[vector("in", "view_with_tangent")]);
     }
 
-    /// `(1 + ((1 / cosine^2 - 1) / bend)^(p/2))^(-q/p)`, or `cosine^q`; over the cosine where the lobe is made to keep its
-    /// width. `bend` is the law whose bend is the same, where there is one.
+    /// `(1 + ((1 / cosine^2 - 1) / bend)^(p/2))^(-q/p)`, or `cosine^q`; over the cosine where the lobe is
+    /// made to keep its width. `bend` is the law whose bend is the same, where there is one.
     fn entrance(&mut self, name: &str, law: &EntranceLaw, over_cosine: bool, bend: Option<&str>) {
         let EntranceLaw { slope, bend: squared_tangent, sharpness } = *law;
         if law.is_power() {

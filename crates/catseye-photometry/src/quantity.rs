@@ -8,31 +8,36 @@ use crate::{Error, Geometry, Unit};
 
 /// A photometric quantity that a BSDF f and a [`Geometry`] determine.
 ///
-/// With f in 1/sr, entrance angle beta (source to normal) and viewing angle nu (receiver to normal); E is illuminance
-/// on a plane normal to the illumination unless something else is said.
+/// With f in 1/sr, entrance angle beta (source to normal) and viewing angle nu (receiver to normal); E is
+/// illuminance on a plane normal to the illumination unless something else is said.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Quantity {
-    /// `R_A`, coefficient of retro-reflection: intensity per E and per area of the surface. f cos beta cos nu, cd/lx/m2.
+    /// `R_A`, coefficient of retro-reflection: intensity per E and per area of the surface. f cos beta cos
+    /// nu, cd/lx/m2.
     RetroReflectionCoefficient,
-    /// `R_I`, coefficient of luminous intensity (CIL) of a whole reflector: intensity per E. `R_A` times area, cd/lx.
+    /// `R_I`, coefficient of luminous intensity (CIL) of a whole reflector: intensity per E. `R_A` times
+    /// area, cd/lx.
     LuminousIntensity,
     /// `R_L`, coefficient of retro-reflected luminance: luminance per E. f cos beta, cd/lx/m2.
     RetroReflectedLuminance,
-    /// `R_Phi`, coefficient of retro-reflected luminous flux: intensity per incident flux. f cos nu, cd/lm, here 1/sr.
+    /// `R_Phi`, coefficient of retro-reflected luminous flux: intensity per incident flux. f cos nu, cd/lm,
+    /// here 1/sr.
     RetroReflectedFlux,
-    /// `R_T`, fractional retro-reflectance: share of the incident flux that comes back within the observation angle,
-    /// whatever the direction. An integral: [`crate::fractional_retro_reflectance`].
+    /// `R_T`, fractional retro-reflectance: share of the incident flux that comes back within the observation
+    /// angle, whatever the direction. An integral: [`crate::fractional_retro_reflectance`].
     FractionalRetroReflectance,
-    /// `Q_d`, luminance coefficient under diffuse illumination (EN 1436): luminance per illuminance on the surface under
-    /// an even sky. An integral, in cd/lx/m2: [`crate::diffuse_luminance_coefficient`].
+    /// `Q_d`, luminance coefficient under diffuse illumination (EN 1436): luminance per illuminance on the
+    /// surface under an even sky. An integral, in cd/lx/m2: [`crate::diffuse_luminance_coefficient`].
     DaytimeLuminance,
-    /// Y, the luminance factor beta: luminance relative to that of a perfect white diffuser in the same light. pi f.
+    /// Y, the luminance factor beta: luminance relative to that of a perfect white diffuser in the same
+    /// light. pi f.
     LuminanceFactor,
     /// f, the BSDF itself, 1/sr.
     Brdf,
 }
 
-/// Names in use; the first of each quantity is the one that is printed. Compared without case, spaces and underscores.
+/// Names in use; the first of each quantity is the one that is printed. Compared without case, spaces and
+/// underscores.
 const NAMES: &[(Quantity, &[&str])] = &[
     (Quantity::RetroReflectionCoefficient, &["R_A", "RA", "R'", "SIA"]),
     (Quantity::LuminousIntensity, &["R_I", "CIL", "R"]),
@@ -78,20 +83,23 @@ impl Quantity {
 
     /// The quantity in its SI unit, from the BSDF `f` in 1/sr at the geometry.
     ///
-    /// `None` where more is needed: an area for `R_I`, which is `R_A` times it, or an integral for `R_T` and `Q_d`.
+    /// `None` where more is needed: an area for `R_I`, which is `R_A` times it, or an integral for `R_T` and
+    /// `Q_d`.
     #[must_use]
     pub fn of_brdf(self, f: f64, geometry: &Geometry) -> Option<f64> {
         self.per_brdf(geometry).map(|factor| f * factor)
     }
 
-    /// The BSDF in 1/sr, from the quantity in its SI unit at the geometry: the inverse of [`Quantity::of_brdf`].
+    /// The BSDF in 1/sr, from the quantity in its SI unit at the geometry: the inverse of
+    /// [`Quantity::of_brdf`].
     #[must_use]
     pub fn to_brdf(self, value: f64, geometry: &Geometry) -> Option<f64> {
         self.per_brdf(geometry).map(|factor| value / factor)
     }
 
-    /// The smallest and the largest value, in the SI unit, that a real surface may be thought to have: a factor of 100
-    /// and more beyond what is sold, so that what lies outside is a unit or a decimal point gone wrong.
+    /// The smallest and the largest value, in the SI unit, that a real surface may be thought to have: a
+    /// factor of 100 and more beyond what is sold, so that what lies outside is a unit or a decimal point
+    /// gone wrong.
     #[must_use]
     pub fn plausible(self, geometry: &Geometry) -> [f64; 2] {
         // Road markings are seen at a glance: entrance angles of 88 degrees and more.

@@ -14,11 +14,12 @@ const NO_AZIMUTH: f64 = 1e-12;
 
 /// One lobe of a sheeting.
 ///
-/// A lobe of one roughness with a law has the same angular width at every entrance angle, as beads and prisms have: along
-/// the viewer's projection its roughness is that over N.V, and its tint is `strength` F / (N.V), so that `R_A` at the
-/// observation angle 0 is F times that at normal incidence (docs/theory.md, section 10). A lobe of two roughnesses lies
-/// along the datum axis, its tint is `strength` F, and in the plane of incidence it narrows with the cosine, as the node
-/// does. The back-vector lobe keeps its width there by itself.
+/// A lobe of one roughness with a law has the same angular width at every entrance angle, as beads and prisms
+/// have: along the viewer's projection its roughness is that over N.V, and its tint is `strength` F / (N.V),
+/// so that `R_A` at the observation angle 0 is F times that at normal incidence (docs/theory.md, section 10).
+/// A lobe of two roughnesses lies along the datum axis, its tint is `strength` F, and in the plane of
+/// incidence it narrows with the cosine, as the node does. The back-vector lobe keeps its width there by
+/// itself.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RetroLobe {
     /// Luminance of the tint at normal incidence.
@@ -139,7 +140,8 @@ impl UnitLobe {
             &Self::KeepsWidth(model, roughness) => {
                 let [wo, wi] = along_projection(wo, wi);
                 let params = Params::anisotropic(roughness / wo.z.max(LEAST_COSINE), roughness);
-                // Edwards' lobe has nothing to prepare; the reciprocal one is it times min(1, z_i/z_o)^3 (theory.md, 3).
+                // Edwards' lobe has nothing to prepare; the reciprocal one is it times min(1, z_i/z_o)^3
+                // (theory.md, 3).
                 let reciprocal =
                     if model == Model::Reciprocal { (wi.z / wo.z).clamp(0.0, 1.0).powi(3) } else { 1.0 };
                 let edwards = AnyLobe::new(Model::Edwards, &params);

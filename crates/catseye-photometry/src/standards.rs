@@ -107,9 +107,10 @@ impl Catalogue {
 
     /// The classes whose name begins with `name`, a `STANDARD[:CLASS[:COLOUR]]`.
     ///
-    /// Case, spaces and signs don't matter, and the standard's own words will do: `FMVSS 108:Grade DOT-C2:white`. Of a part
-    /// that names nothing exactly the beginning is enough, or any piece of it: `d4956:ii` is `astm-d4956:ii`. The
-    /// second part may be the colour, and the class be joined to the standard: `3m-8830`.
+    /// Case, spaces and signs don't matter, and the standard's own words will do:
+    /// `FMVSS 108:Grade DOT-C2:white`. Of a part that names nothing exactly the beginning is enough, or any
+    /// piece of it: `d4956:ii` is `astm-d4956:ii`. The second part may be the colour, and the class be joined
+    /// to the standard: `3m-8830`.
     ///
     /// # Errors
     /// A name that fits no class.

@@ -147,8 +147,9 @@ impl Table {
     /// Reads CSV text with a header line and values; `name` is what errors call it.
     ///
     /// # Errors
-    /// As [`Table::parse_geometries`], and a value that is missing, not finite, not above 0, in a unit that does not measure
-    /// its quantity or beyond [`Quantity::plausible`], an observation angle of 0, and rows that contradict each other.
+    /// As [`Table::parse_geometries`], and a value that is missing, not finite, not above 0, in a unit that
+    /// does not measure its quantity or beyond [`Quantity::plausible`], an observation angle of 0, and rows
+    /// that contradict each other.
     pub fn parse_values(bytes: &[u8], name: &str) -> Result<Self, Error> {
         Self::parse(bytes, name, Need::Values)
     }
@@ -156,8 +157,8 @@ impl Table {
     /// Reads CSV text with a header line for its geometries; `name` is what errors call it.
     ///
     /// # Errors
-    /// Names line and column of: text that is not UTF-8 or longer than 16 MiB, a missing or doubled column, a table
-    /// without rows, an angle that is no number or out of its range, a receiver below the surface.
+    /// Names line and column of: text that is not UTF-8 or longer than 16 MiB, a missing or doubled column, a
+    /// table without rows, an angle that is no number or out of its range, a receiver below the surface.
     pub fn parse_geometries(bytes: &[u8], name: &str) -> Result<Self, Error> {
         Self::parse(bytes, name, Need::Geometry)
     }
@@ -228,8 +229,8 @@ impl Table {
         &self.rows
     }
 
-    /// The table as CSV: its own columns, and one more for each pair of a name and a text for every row. A column that
-    /// has an added one's name is replaced.
+    /// The table as CSV: its own columns, and one more for each pair of a name and a text for every row. A
+    /// column that has an added one's name is replaced.
     #[must_use]
     pub fn to_csv(&self, added: &[(&str, Vec<String>)]) -> String {
         let is_kept = |name: &str| added.iter().all(|(other, _)| !other.eq_ignore_ascii_case(name));

@@ -10,15 +10,16 @@ const SQUARE_FOOT: f64 = 0.3048 * 0.3048;
 
 /// A unit of a photometric quantity.
 ///
-/// It is read in the spellings of data sheets and printed in one: `cd/lx/m2` is also `cd/(lx.m2)`, `cd.lx-1.m-2`,
-/// `cd/lux/m^2` and `cd/m²/lx`. A remark such as `(R_L)` or `(CIL)` may follow.
+/// It is read in the spellings of data sheets and printed in one: `cd/lx/m2` is also `cd/(lx.m2)`,
+/// `cd.lx-1.m-2`, `cd/lux/m^2` and `cd/m²/lx`. A remark such as `(R_L)` or `(CIL)` may follow.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Unit {
     /// cd/lx/m2, the unit of `R_A`, `R_L` and `Q_d`.
     CandelaPerLuxSquareMetre,
     /// mcd/lx/m2, in which road markings are specified.
     MillicandelaPerLuxSquareMetre,
-    /// cd/fc/ft2: the same number as cd/lx/m2, since lux and footcandle are lumens per the same area that is divided by.
+    /// cd/fc/ft2: the same number as cd/lx/m2, since lux and footcandle are lumens per the same area that is
+    /// divided by.
     CandelaPerFootcandleSquareFoot,
     /// cd/lx, the unit of `R_I`.
     CandelaPerLux,

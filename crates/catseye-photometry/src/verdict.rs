@@ -31,7 +31,8 @@ pub struct Verdict<'a> {
 }
 
 impl Check<'_> {
-    /// How far on the right side of the limit the material is: 1 just meets it, 2 is twice a minimum or half of a maximum.
+    /// How far on the right side of the limit the material is: 1 just meets it, 2 is twice a minimum or half
+    /// of a maximum.
     #[must_use]
     pub fn margin(&self) -> f64 {
         if self.row.limit == Limit::Maximum { self.asked / self.found } else { self.found / self.asked }
@@ -47,9 +48,9 @@ impl Check<'_> {
 impl<'a> Verdict<'a> {
     /// Judges a material by a class.
     ///
-    /// `measure` gives the quantity in its SI unit at a geometry, and `None` where it can't, a `R_I` without an area for
-    /// instance. `None` comes back where the class has such rows, or no limit to meet: values that are typical of a product
-    /// are no demand.
+    /// `measure` gives the quantity in its SI unit at a geometry, and `None` where it can't, a `R_I` without
+    /// an area for instance. `None` comes back where the class has such rows, or no limit to meet: values
+    /// that are typical of a product are no demand.
     pub fn new(
         class: &'a StandardClass,
         measure: impl Fn(Quantity, &Geometry) -> Option<f64>,
@@ -89,8 +90,8 @@ impl<'a> Verdict<'a> {
     }
 }
 
-/// The verdicts of all classes that have one, nearest first: those that are met before those that are not, and each
-/// group by its tightest margin, so that the most demanding class that is met comes first.
+/// The verdicts of all classes that have one, nearest first: those that are met before those that are not,
+/// and each group by its tightest margin, so that the most demanding class that is met comes first.
 pub fn verdicts<'a>(
     classes: impl IntoIterator<Item = &'a StandardClass>,
     measure: impl Fn(Quantity, &Geometry) -> Option<f64>,
@@ -104,7 +105,8 @@ pub fn verdicts<'a>(
 }
 
 impl fmt::Display for Verdict<'_> {
-    /// One line, such as `fails ISO 20471 ... white at 1.5 degree, entrance 5 degree: R_A 7.2, at least 10 cd/lx/m2`.
+    /// One line, such as
+    /// `fails ISO 20471 ... white at 1.5 degree, entrance 5 degree: R_A 7.2, at least 10 cd/lx/m2`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Check { row, asked, found } = *self.tightest();
         let verb = if self.is_met() { "meets" } else { "fails" };

@@ -1,8 +1,9 @@
 //! ALTA's text format: a header of `#KEY value` lines, then a row of numbers for each sample.
 //!
-//! The format is described by the ALTA library (`github.com/belcour/alta`, `documents/data-formats.dox`): `#DIM N P` says
-//! how many numbers a row has for the directions and for the values, `#PARAM_IN` and `#PARAM_OUT` what they are. Numbers
-//! beyond them, confidence intervals where `#VS` is above 0, are not read.
+//! The format is described by the ALTA library (`github.com/belcour/alta`, `documents/data-formats.dox`):
+//! `#DIM N P` says how many numbers a row has for the directions and for the values, `#PARAM_IN` and
+//! `#PARAM_OUT` what they are. Numbers beyond them, confidence intervals where `#VS` is above 0, are not
+//! read.
 
 use super::coordinates::Coordinates;
 use super::{Brdf, Cosine};

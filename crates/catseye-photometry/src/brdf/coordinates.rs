@@ -58,8 +58,9 @@ impl Coordinates {
     }
 }
 
-/// Directions from the half vector's polar angle and azimuth and the difference's (Rusinkiewicz 1998): the first
-/// direction stands at the difference's angles in a frame whose z axis is the half vector, the second opposite.
+/// Directions from the half vector's polar angle and azimuth and the difference's (Rusinkiewicz 1998): the
+/// first direction stands at the difference's angles in a frame whose z axis is the half vector, the second
+/// opposite.
 ///
 /// The angle between the directions is twice the difference's polar angle: the retro direction is at 0.
 pub(super) fn half_difference(half: [f64; 2], [theta, phi]: [f64; 2]) -> [Vec3<f64>; 2] {

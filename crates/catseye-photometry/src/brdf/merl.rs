@@ -1,8 +1,8 @@
 //! MERL's `.binary`: 90 x 90 x 180 values of each channel over half and difference angle.
 //!
-//! Matusik, Pfister, Brand and `McMillan`, "A Data-Driven Reflectance Model", SIGGRAPH 2003, and the code published with
-//! it: three `int32` dimensions, then planes of `f64` for red, green and blue, all little-endian, the difference's
-//! azimuth fastest. Negative values were not measured.
+//! Matusik, Pfister, Brand and `McMillan`, "A Data-Driven Reflectance Model", SIGGRAPH 2003, and the code
+//! published with it: three `int32` dimensions, then planes of `f64` for red, green and blue, all
+//! little-endian, the difference's azimuth fastest. Negative values were not measured.
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
@@ -11,7 +11,8 @@ use super::coordinates::half_difference;
 
 /// Factors of the channels.
 const SCALES: [f64; 3] = [1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0];
-/// Half angles, difference angles and azimuths of a file; reciprocal data have 180 azimuths, over half a turn.
+/// Half angles, difference angles and azimuths of a file; reciprocal data have 180 azimuths, over half a
+/// turn.
 const DIMENSIONS: [[u32; 3]; 2] = [[90, 90, 180], [90, 90, 360]];
 /// Bytes before the values.
 const HEADER: usize = 12;

@@ -3,10 +3,11 @@
 /// Errors of a model over many values.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Metrics {
-    /// Root mean square error over the range of the measured values, greatest less least. Says how good the peak is.
+    /// Root mean square error over the range of the measured values, greatest less least. Says how good the
+    /// peak is.
     pub nrmse: f64,
-    /// Root mean square of the natural logarithms of model over measured. Says how good the tails are: 0.1 is a typical
-    /// error of 10 %.
+    /// Root mean square of the natural logarithms of model over measured. Says how good the tails are: 0.1 is
+    /// a typical error of 10 %.
     pub log_rmse: f64,
     /// Pairs that the metrics are over. For the logarithms only those where both are above 0.
     pub count: usize,

@@ -1,8 +1,9 @@
 //! Measured BRDFs: reading them, choosing what of them a fit looks at, and how far a model is from them.
 //!
-//! ALTA's text files and MERL's `.binary` are read. Such data say little below 1 or 2 degrees of observation angle: the
-//! instruments saw more than that at once. Their apertures belong into the fit ([`crate::Apertures`]); what the data can
-//! tell is the shape at wide angles and how it falls with the entrance angle.
+//! ALTA's text files and MERL's `.binary` are read. Such data say little below 1 or 2 degrees of observation
+//! angle: the instruments saw more than that at once. Their apertures belong into the fit
+//! ([`crate::Apertures`]); what the data can tell is the shape at wide angles and how it falls with the
+//! entrance angle.
 
 mod alta;
 mod coordinates;
@@ -33,8 +34,8 @@ pub struct BrdfSample {
     pub wo: Vec3<f64>,
     /// To the source, a unit vector above the surface.
     pub wi: Vec3<f64>,
-    /// f in 1/sr, the cosine not included, not negative, for red, green and blue; three times the same where the file has
-    /// one channel.
+    /// f in 1/sr, the cosine not included, not negative, for red, green and blue; three times the same where
+    /// the file has one channel.
     pub value: [f64; 3],
 }
 
@@ -84,7 +85,8 @@ impl Brdf {
     /// Reads an ALTA text file or MERL's `.binary`, told apart by how they begin.
     ///
     /// # Errors
-    /// A file that can't be read, or is larger than 80 MiB, or neither; everything that [`Brdf::parse`] refuses.
+    /// A file that can't be read, or is larger than 80 MiB, or neither; everything that [`Brdf::parse`]
+    /// refuses.
     pub fn read(path: &Path, cosine: Cosine) -> Result<Self, Error> {
         let io = |source| Error::Io { path: path.to_owned(), source };
         let mut bytes = Vec::new();
@@ -95,8 +97,8 @@ impl Brdf {
     /// Reads the bytes of an ALTA text file or of MERL's `.binary`; `name` is what errors call it.
     ///
     /// # Errors
-    /// Names the file, for ALTA also the line: dimensions that don't fit, a parametrisation that isn't known, a cell that
-    /// is no number, missing cells, a file without usable samples.
+    /// Names the file, for ALTA also the line: dimensions that don't fit, a parametrisation that isn't known,
+    /// a cell that is no number, missing cells, a file without usable samples.
     pub fn parse(bytes: &[u8], name: &str, cosine: Cosine) -> Result<Self, Error> {
         let fail = |problem: String| Error::Table { table: name.to_owned(), problem };
         if bytes.len() as u64 > LARGEST {

@@ -1,7 +1,8 @@
 //! Whether measured values are the BRDF or have a cosine in them: reciprocity tells.
 //!
-//! f(a, b) = f(b, a), so where a file has both, values that are f agree, and values that are f times the cosine of the
-//! receiver differ by the quotient of the cosines. Published files are not always what their header says.
+//! f(a, b) = f(b, a), so where a file has both, values that are f agree, and values that are f times the
+//! cosine of the receiver differ by the quotient of the cosines. Published files are not always what their
+//! header says.
 
 use std::collections::HashMap;
 
@@ -9,7 +10,8 @@ use catseye::Vec3;
 
 use super::{Brdf, Cosine};
 
-/// Size of the bins in which directions are taken to be the same, in units of the direction's projection: 0.3 degrees.
+/// Size of the bins in which directions are taken to be the same, in units of the direction's projection: 0.3
+/// degrees.
 const BIN: f64 = 5e-3;
 /// Cosines nearer than this factor say nothing.
 const LEAST_QUOTIENT: f64 = 1.05;
@@ -32,8 +34,8 @@ pub struct Reciprocity {
 }
 
 impl Brdf {
-    /// Compares the samples with exchanged directions, up to a turn of both about the normal; `None` where the file has
-    /// fewer than three.
+    /// Compares the samples with exchanged directions, up to a turn of both about the normal; `None` where
+    /// the file has fewer than three.
     #[must_use]
     pub fn reciprocity(&self) -> Option<Reciprocity> {
         let bin = |x: f64| (x / BIN).round() as i64;

@@ -18,7 +18,8 @@ pub struct Selection {
 }
 
 impl Default for Selection {
-    /// Around the retro direction, to 20 degrees; not near the horizon, where measurements are bad; above 1e-5 of the peak.
+    /// Around the retro direction, to 20 degrees; not near the horizon, where measurements are bad; above
+    /// 1e-5 of the peak.
     fn default() -> Self {
         Self { observation: 20_f64.to_radians(), zenith: 80_f64.to_radians(), floor: 1e-5, count: 2000 }
     }
@@ -45,7 +46,8 @@ impl Selection {
 
     /// Rows of a fit to the luminance of a BRDF, in 1/sr, as an instrument with these apertures sees it.
     ///
-    /// Each row is f averaged over the apertures. They are dropped where an aperture reaches below the surface.
+    /// Each row is f averaged over the apertures. They are dropped where an aperture reaches below the
+    /// surface.
     #[must_use]
     pub fn observations(&self, brdf: &Brdf, apertures: &ApertureRule) -> Vec<Observation> {
         let rows = self.of(brdf).into_iter().map(|sample| Observation {

@@ -9,14 +9,16 @@ use crate::sheeting::{RetroLobe, Sheeting};
 const ROUGHNESS: [f64; 2] = [5e-4, 3.0];
 /// The weakest lobe, or base, that is looked for.
 const LEAST_STRENGTH: f64 = 1e-7;
-/// What sheeting has, and by which factor it varies: white sheeting and tapes of the standards have strengths of 0.02 to
-/// 0.14 and roughnesses of 0.003 to 0.02.
+/// What sheeting has, and by which factor it varies: white sheeting and tapes of the standards have strengths
+/// of 0.02 to 0.14 and roughnesses of 0.003 to 0.02.
 const STRENGTH_PRIOR: [f64; 2] = [0.05, 5.0];
 const ROUGHNESS_PRIOR: [f64; 2] = [0.008, 2.5];
-/// Powers of the cosine, and of the tangent beyond a bend. What a surface catches falls with the cosine, so `R_A` falls at
-/// least as fast. At most it falls by (tan 60 / tan 50)^6 = 9.4 in the 10 degrees up to 60, and by 28 in those up to 75.
+/// Powers of the cosine, and of the tangent beyond a bend. What a surface catches falls with the cosine, so
+/// `R_A` falls at least as fast. At most it falls by (tan 60 / tan 50)^6 = 9.4 in the 10 degrees up to 60,
+/// and by 28 in those up to 75.
 const POWER: [f64; 2] = [1.0, 6.0];
-/// Squared tangent at the bend: 30 to 70 degrees. Below 30 a sharp bend would fall by more than ten times in 10 degrees.
+/// Squared tangent at the bend: 30 to 70 degrees. Below 30 a sharp bend would fall by more than ten times in
+/// 10 degrees.
 const BEND: [f64; 2] = [1.0 / 3.0, 7.55];
 /// Sharpness of the bend: 2 is that of a power of the cosine; at 12 it is over within 10 degrees.
 const SHARPNESS: [f64; 2] = [2.0, 12.0];
@@ -197,7 +199,8 @@ impl Form {
 }
 
 impl Form {
-    /// The numbers of this form that describe a sheeting of a simpler form; `None` where that is no case of this one.
+    /// The numbers of this form that describe a sheeting of a simpler form; `None` where that is no case of
+    /// this one.
     ///
     /// A lobe more shares the strength of the last one, with the same roughness.
     pub(crate) fn embed(&self, simpler: &Self, x: &[f64]) -> Option<Vec<f64>> {

@@ -1,10 +1,10 @@
 //! Fits: from photometric values to the lobes of a material.
 //!
 //! A model of 1 to 3 lobes with entrance laws ([`Form`]) is fitted to the logarithms of the values by
-//! Levenberg and Marquardt's method. Every number is kept within bounds, the albedo of every direction at 1 or less, and a
-//! number that the data leave open near a weak prior, with a warning. Where a table's worst row is beyond the tolerance
-//! its weight grows until the worst error is as small as it gets (Lawson's algorithm). Without a wish, the form with the
-//! fewest numbers that meets the tolerance is chosen.
+//! Levenberg and Marquardt's method. Every number is kept within bounds, the albedo of every direction at 1
+//! or less, and a number that the data leave open near a weak prior, with a warning. Where a table's worst
+//! row is beyond the tolerance its weight grows until the worst error is as small as it gets (Lawson's
+//! algorithm). Without a wish, the form with the fewest numbers that meets the tolerance is chosen.
 
 mod error;
 mod form;
@@ -101,8 +101,8 @@ pub struct Fit {
     pub worst: f64,
     /// Root mean square of the rows' errors, as logarithms.
     pub rms: f64,
-    /// Whether every row is within the tolerance, of many rows (measurements) their root mean square, and the material is
-    /// physical between and beyond the rows.
+    /// Whether every row is within the tolerance, of many rows (measurements) their root mean square, and the
+    /// material is physical between and beyond the rows.
     pub acceptable: bool,
     /// Where between or beyond the rows the material is not what sheeting can be, if anywhere.
     pub fault: Option<Fault>,
@@ -152,8 +152,8 @@ fn is_acceptable(solution: &Solution, rows: usize, tolerance: f64) -> bool {
 }
 
 impl Fit {
-    /// By how much, as a share, the BSDF of an observation differs at most where viewer and light change places: what it
-    /// costs that a node graph knows only the direction to the viewer.
+    /// By how much, as a share, the BSDF of an observation differs at most where viewer and light change
+    /// places: what it costs that a node graph knows only the direction to the viewer.
     #[must_use]
     pub fn reciprocity_cost(&self, observations: &[Observation]) -> f64 {
         let Ok(prepared) = self.sheeting.prepare() else { return f64::NAN };

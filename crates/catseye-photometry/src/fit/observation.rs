@@ -73,11 +73,13 @@ impl Observation {
     }
 }
 
-/// Angle from the retro direction beyond which a value is of the diffuse base, not of the lobes: a luminance factor.
+/// Angle from the retro direction beyond which a value is of the diffuse base, not of the lobes: a luminance
+/// factor.
 pub(crate) const RETRO_REACH: f64 = 30.0 * core::f64::consts::PI / 180.0;
 
 impl Observation {
-    /// The middle of the directions: to the receiver, to the source. An aperture's views surround what is meant.
+    /// The middle of the directions: to the receiver, to the source. An aperture's views surround what is
+    /// meant.
     pub(crate) fn centre(&self) -> Geometry {
         let mean = |of: fn(&View) -> Vec3<f64>| {
             self.views.iter().map(of).fold(Vec3::default(), |sum, w| sum + w).normalized()

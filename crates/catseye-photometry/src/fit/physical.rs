@@ -15,8 +15,8 @@ const RISE: f64 = 1.1;
 /// Observation angles that are looked at, of more as many.
 const ANGLES: usize = 16;
 
-/// A change of `R_A` over the entrance angle that no sheeting has: a rise by more than 10 %, or a fall by more than a
-/// factor of 10 within 10 degrees, 30 beyond an entrance angle of 60 degrees.
+/// A change of `R_A` over the entrance angle that no sheeting has: a rise by more than 10 %, or a fall by
+/// more than a factor of 10 within 10 degrees, 30 beyond an entrance angle of 60 degrees.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Fault {
     /// Observation angle, degrees.
@@ -28,10 +28,11 @@ pub struct Fault {
 }
 
 impl Sheeting {
-    /// The first fault at the observation angles, in radians, in their order; of more than 16 as many are looked at.
+    /// The first fault at the observation angles, in radians, in their order; of more than 16 as many are
+    /// looked at.
     ///
-    /// The material is measured as sheeting is, in the plane of incidence, from where the viewer is not nearer to the normal
-    /// than the light, up to an entrance angle of 75 degrees.
+    /// The material is measured as sheeting is, in the plane of incidence, from where the viewer is not
+    /// nearer to the normal than the light, up to an entrance angle of 75 degrees.
     #[must_use]
     pub fn fault(&self, observations: &[f64]) -> Option<Fault> {
         let prepared = self.prepare().ok()?;

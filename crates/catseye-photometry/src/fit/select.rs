@@ -69,8 +69,8 @@ impl Span {
         warnings
     }
 
-    /// Where a solution is not what sheeting can be. One that models nothing over the entrance angle is not asked: the
-    /// warning of values at a single entrance angle says so.
+    /// Where a solution is not what sheeting can be. One that models nothing over the entrance angle is not
+    /// asked: the warning of values at a single entrance angle says so.
     pub(crate) fn fault(&self, solution: &Solution) -> Option<Fault> {
         let is_modelled = solution.form.entrance != EntranceKind::Constant;
         is_modelled.then(|| solution.sheeting.fault(&self.observation)).flatten()
@@ -117,8 +117,8 @@ fn distinct(values: impl Iterator<Item = f64>) -> Vec<f64> {
     values
 }
 
-/// The simplest form that meets the tolerance, or the best one; for measurements with noise and for limits, the one of the
-/// least Bayesian information criterion.
+/// The simplest form that meets the tolerance, or the best one; for measurements with noise and for limits,
+/// the one of the least Bayesian information criterion.
 pub(crate) fn choose(
     observations: &[Observation],
     options: &FitOptions,
@@ -155,15 +155,16 @@ pub(crate) fn choose(
     Ok((polish(best, observations, options.channel_peak, options.tolerance), trials))
 }
 
-/// What makes a form better than another one. The last two are Bayesian information criteria, of limits with the prior:
-/// there is much that meets them.
+/// What makes a form better than another one. The last two are Bayesian information criteria, of limits with
+/// the prior: there is much that meets them.
 #[derive(Clone, Copy, Debug, PartialEq)]
 enum Judged {
     /// The worst row of a table; the first form that meets the tolerance will do.
     Worst,
     /// Errors of unknown size.
     Noise,
-    /// Limits with the least to spare, in units of this tolerance: with strength enough every form meets a minimum.
+    /// Limits with the least to spare, in units of this tolerance: with strength enough every form meets a
+    /// minimum.
     Limits(f64),
 }
 

@@ -10,11 +10,12 @@ const SAME_DIRECTION: f64 = 1e-6;
 
 /// Three rows of a table that no sum of disk lobes comes closer to.
 ///
-/// Along a series of observation angles in one plane, every disk lobe is exp(-(n+1) u) in u = -ln(1 - |d|^2), times a
-/// factor that all lobes share. A sum of such terms is log-convex in u, a diffuse base included, whatever their number,
-/// widths and strengths: between two rows it lies below the line through them. A table whose middle value lies above
-/// that line, because it falls slowly at first and then fast, is missed by at least half the distance. (The entrance
-/// factors are taken as constant over the observation angle, a degree or two.)
+/// Along a series of observation angles in one plane, every disk lobe is exp(-(n+1) u) in u = -ln(1 - |d|^2),
+/// times a factor that all lobes share. A sum of such terms is log-convex in u, a diffuse base included,
+/// whatever their number, widths and strengths: between two rows it lies below the line through them. A table
+/// whose middle value lies above that line, because it falls slowly at first and then fast, is missed by at
+/// least half the distance. (The entrance factors are taken as constant over the observation angle, a degree
+/// or two.)
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ShapeBound {
     /// The rows, from the least observation angle to the greatest.

@@ -23,13 +23,15 @@ const ROUND_ACCURACY: f64 = 1e-6;
 const PATIENCE: usize = 12;
 /// The same for the last round of all.
 const POLISH_PATIENCE: usize = 300;
-/// How fast a row's weight follows its error: 1 is Lawson's algorithm, which overshoots where rows decide alone.
+/// How fast a row's weight follows its error: 1 is Lawson's algorithm, which overshoots where rows decide
+/// alone.
 const WEIGHT_POWER: f64 = 0.7;
 /// Least weight of a row beside the worst one, in one round.
 const LEAST_WEIGHT: f64 = 0.05;
 /// Rows up to which every single one is held to the tolerance; more of them are measurements with noise.
 pub(crate) const TABLE_ROWS: usize = 64;
-/// What a minimum is exceeded by at least, as a share: a document has six digits, and a renderer single precision.
+/// What a minimum is exceeded by at least, as a share: a document has six digits, and a renderer single
+/// precision.
 const LIMIT_MARGIN: f64 = 1e-3;
 /// An albedo this far above 1 is rounding.
 const ENERGY_SLACK: f64 = 1e-6;
@@ -41,7 +43,8 @@ pub(crate) struct Solution {
     pub(crate) x: Vec<f64>,
     pub(crate) sheeting: Sheeting,
     pub(crate) log_ratios: Vec<f64>,
-    /// The rows' errors as logarithms: those of limits count more where they are broken, less where there is some to spare.
+    /// The rows' errors as logarithms: those of limits count more where they are broken, less where there is
+    /// some to spare.
     errors: Vec<f64>,
     /// The greatest error of a row, as a share of its value.
     pub(crate) worst: f64,
@@ -58,8 +61,8 @@ pub(crate) fn miss(aim: Aim, log_ratio: f64) -> f64 {
     }
 }
 
-/// The best of several starts and of what follows from the solutions of simpler forms, so that it is no worse than they
-/// are; the first of equals, `None` where none gives finite numbers.
+/// The best of several starts and of what follows from the solutions of simpler forms, so that it is no worse
+/// than they are; the first of equals, `None` where none gives finite numbers.
 pub(crate) fn solve<'a>(
     form: Form,
     observations: &[Observation],
@@ -83,7 +86,8 @@ pub(crate) fn solve<'a>(
     nested.chain(found).flatten().reduce(better)
 }
 
-/// Lobes of the same roughness, which a simpler form's solution leaves, drawn apart: from each other nothing parts them.
+/// Lobes of the same roughness, which a simpler form's solution leaves, drawn apart: from each other nothing
+/// parts them.
 fn apart(unknowns: &[Unknown], x: &[f64]) -> Vec<f64> {
     const FACTOR: f64 = 1.5;
     let mut moved = x.to_vec();
@@ -98,7 +102,8 @@ fn apart(unknowns: &[Unknown], x: &[f64]) -> Vec<f64> {
     moved
 }
 
-/// The best that rounds of least squares find from one start, the worst rows weighing more from round to round.
+/// The best that rounds of least squares find from one start, the worst rows weighing more from round to
+/// round.
 fn descend(
     mut problem: Problem<'_>,
     observations: &[Observation],
@@ -153,7 +158,8 @@ fn solution(
     channel_peak: f64,
 ) -> Option<Solution> {
     let unknowns = form.unknowns();
-    // Limits and the energy are penalties in the problem, and laws here; of the two the energy's is the higher.
+    // Limits and the energy are penalties in the problem, and laws here; of the two the energy's is the
+    // higher.
     let logs = log_ratios(&form.sheeting(&unknowns, &x), observations)?;
     let at_least = observations.iter().zip(&logs).filter(|(row, _)| row.aim == Aim::AtLeast);
     let missing = at_least.map(|(_, log)| LIMIT_MARGIN - log).fold(0.0, f64::max);
@@ -180,8 +186,8 @@ fn solution(
 }
 
 impl Solution {
-    /// Of two that meet the tolerance the more probable one is better, taking the tolerance for the standard deviation:
-    /// a table of few rows is met in many ways, most of them odd.
+    /// Of two that meet the tolerance the more probable one is better, taking the tolerance for the standard
+    /// deviation: a table of few rows is met in many ways, most of them odd.
     fn is_better_than(&self, other: &Self, tolerance: f64) -> bool {
         if self.log_ratios.len() > TABLE_ROWS {
             self.rms < other.rms
@@ -216,7 +222,8 @@ fn reweight(weights: &mut [f64], observations: &[Observation], solution: &Soluti
     weights.iter_mut().for_each(|weight| *weight /= most);
 }
 
-/// A start: widths spread over the observation angles, strengths to match, the rest around where ignorance puts it.
+/// A start: widths spread over the observation angles, strengths to match, the rest around where ignorance
+/// puts it.
 fn starting_point(form: Form, unknowns: &[Unknown], observations: &[Observation], start: usize) -> Vec<f64> {
     let angles = observations.iter().map(|row| row.centre().observation());
     // The retro direction itself is no lobe's width, nor is the angle of a luminance factor.

@@ -23,8 +23,8 @@ pub struct Assumption {
     pub observation_deg: f64,
     /// Entrance angle in degrees. Default -4, nearly head-on, as data sheets have it.
     pub entrance_deg: f64,
-    /// Observation angle in degrees at which the coefficient is half of what it is at 0. Default 0.4: the lobes that fit
-    /// the minima of ASTM D4956 Types I to III have 0.37 to 0.42.
+    /// Observation angle in degrees at which the coefficient is half of what it is at 0. Default 0.4: the
+    /// lobes that fit the minima of ASTM D4956 Types I to III have 0.37 to 0.42.
     pub half_power_deg: f64,
 }
 
@@ -80,8 +80,8 @@ impl OpenMaterial {
     /// Reads the text of a `.xomp` file; `name` is what errors call it.
     ///
     /// # Errors
-    /// Text that is no JSON, or without a coefficient, or with one outside the format's range; 0 as well, since nothing
-    /// comes back then.
+    /// Text that is no JSON, or without a coefficient, or with one outside the format's range; 0 as well,
+    /// since nothing comes back then.
     pub fn parse(text: &str, name: &str) -> Result<Self, Error> {
         let fail = |problem: String| Error::Table { table: name.to_owned(), problem };
         let document: Value =
@@ -124,8 +124,8 @@ impl OpenMaterial {
 
 /// A `.xomp` file with a coefficient of retro-reflection in cd/lx/m2.
 ///
-/// `sources` says where it is from, angles included, since the format has no other place for them. `brdf` is the relative
-/// path of the material's `_brdf.xompt`, if it has one.
+/// `sources` says where it is from, angles included, since the format has no other place for them. `brdf` is
+/// the relative path of the material's `_brdf.xompt`, if it has one.
 ///
 /// # Errors
 /// A coefficient outside the format's 0 to 5000, a path that doesn't end in `_brdf.xompt`.

@@ -45,16 +45,17 @@ impl Band {
 pub struct BrdfTable {
     /// The wavelengths.
     pub bands: Vec<Band>,
-    /// Solid angle of the receiver that the values are averages over, in sr; `None` where they are the BRDF itself.
+    /// Solid angle of the receiver that the values are averages over, in sr; `None` where they are the BRDF
+    /// itself.
     pub receiver_solid_angle: Option<f64>,
 }
 
 impl BrdfTable {
     /// A `_brdf.xompt` file of a BRDF, in 1/sr for visible light.
     ///
-    /// The light arrives in the plane of the datum axis: the format knows no rotation. Directions are dense around the
-    /// retro direction, which the format has at the light's own zenith angle and azimuth 0, and 15 degrees apart
-    /// elsewhere.
+    /// The light arrives in the plane of the datum axis: the format knows no rotation. Directions are dense
+    /// around the retro direction, which the format has at the light's own zenith angle and azimuth 0, and 15
+    /// degrees apart elsewhere.
     ///
     /// # Errors
     /// No band, a wavelength or tint out of range or twice the same, a solid angle that is not above 0.
@@ -164,7 +165,8 @@ fn exits(incident: f64) -> Vec<f64> {
     column(around.chain(far).chain([incident]), MAX_ZENITH)
 }
 
-/// Azimuths of the exit direction: steps across are as long as those along, which the sine of the zenith makes wider.
+/// Azimuths of the exit direction: steps across are as long as those along, which the sine of the zenith
+/// makes wider.
 fn azimuths(incident: f64, exit: f64) -> Vec<f64> {
     let sine = exit.sin();
     if sine < 1e-9 {

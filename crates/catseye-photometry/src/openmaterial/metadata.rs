@@ -23,7 +23,8 @@ pub struct Metadata {
 }
 
 impl Metadata {
-    /// A material that nothing but the name is known of. The schemas want copyright, licence and author; they say so.
+    /// A material that nothing but the name is known of. The schemas want copyright, licence and author; they
+    /// say so.
     #[must_use]
     pub fn named(name: &str) -> Self {
         Self {
@@ -59,8 +60,8 @@ impl Metadata {
         Map::from_iter([("$schema".to_owned(), schema.into()), ("metadata".to_owned(), metadata)])
     }
 
-    /// An identifier that depends on the name and the kind of file only: a UUID of version 8 (RFC 9562, section 5.8), for
-    /// numbers of one's own making.
+    /// An identifier that depends on the name and the kind of file only: a UUID of version 8 (RFC 9562,
+    /// section 5.8), for numbers of one's own making.
     fn uuid(&self, kind: &str) -> String {
         let text = format!("catseye/{kind}/{}", self.name);
         // FNV-1a with 128 bits (Fowler, Noll and Vo).

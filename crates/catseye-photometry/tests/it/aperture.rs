@@ -30,8 +30,8 @@ fn lobe(width_deg: f64) -> Reciprocal<f64> {
 
 #[test]
 fn the_difference_is_as_good_as_four_dimensions() {
-    // As in the documentation: 1e-4 of the value on the axes or of the mean, whichever is greater. What is left out
-    // grows with the square of the aperture: 3.2e-4 at 0.3 degrees and an entrance angle of 60.
+    // As in the documentation: 1e-4 of the value on the axes or of the mean, whichever is greater. What is
+    // left out grows with the square of the aperture: 3.2e-4 at 0.3 degrees and an entrance angle of 60.
     for apertures in [apertures(0.1, 0.1), apertures(0.1, 0.04), apertures(0.0, 0.1), apertures(0.3, 0.3)] {
         let widest = apertures.source.max(apertures.receiver).to_degrees();
         let tolerance = if widest > 0.2 { 4e-4 } else { 1e-4 };

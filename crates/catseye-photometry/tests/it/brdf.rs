@@ -12,7 +12,8 @@ fn lobe() -> Reciprocal<f64> {
 
 const HEADER: &str = "#SAMPLE \"ours\"\n# a comment\n#DIM 3 1\n#VS 0\n#PARAM_IN ISOTROPIC_TL_TV_PROJ_DPHI\n";
 
-/// Light at 15, 30 and 60 degrees, the view on a grid of 5 degrees: the layout of the retro-reflective tapes' files.
+/// Light at 15, 30 and 60 degrees, the view on a grid of 5 degrees: the layout of the retro-reflective tapes'
+/// files.
 fn alta(lobe: &Reciprocal<f64>, header: &str, with_cosine: bool) -> String {
     let mut text = header.to_owned();
     for light in [15.0_f64, 30.0, 60.0].map(f64::to_radians) {

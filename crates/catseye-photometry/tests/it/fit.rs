@@ -93,8 +93,9 @@ fn a_blurred_lobe_is_found_through_the_apertures() {
     assert!(wider.sheeting.lobes[0].roughness[0] > 0.0061, "{:?}", wider.sheeting);
 }
 
-/// Tables that are not met within 5 %, and within what they are: reflectors whose positions are one colour's mean, a table
-/// with four entrance laws that no sum of lobes comes closer to than 7.5 %, and one whose values have a single digit.
+/// Tables that are not met within 5 %, and within what they are: reflectors whose positions are one colour's
+/// mean, a table with four entrance laws that no sum of lobes comes closer to than 7.5 %, and one whose
+/// values have a single digit.
 const UNMET: [(&str, f64); 5] = [
     ("fmvss108:reflex:red", 0.08),
     ("fmvss108:reflex:amber", 0.08),
@@ -103,7 +104,8 @@ const UNMET: [(&str, f64); 5] = [
     ("fr-plate:sheeting:blue", 0.15),
 ];
 
-/// Every other table with two observation angles or more is within 5 % of each value, and all are physical between them.
+/// Every other table with two observation angles or more is within 5 % of each value, and all are physical
+/// between them.
 #[test]
 fn standards_are_met_within_5_percent_by_what_sheeting_can_be() {
     let (mut met, mut unmet) = (0, 0);
@@ -229,7 +231,8 @@ fn a_form_with_more_numbers_is_never_worse() {
     }
 }
 
-/// Two lobes of constant width times cos^3, with noise of 3 %: 600 rows at entrance angles up to 50 degrees either way.
+/// Two lobes of constant width times cos^3, with noise of 3 %: 600 rows at entrance angles up to 50 degrees
+/// either way.
 #[test]
 fn data_of_constant_width_are_fitted_to_their_noise() {
     let mut state = 1_u64;

@@ -90,7 +90,8 @@ fn small_observation_angles_keep_their_digits() {
             for rotation in [0.0, 37.0] {
                 let geometry = Geometry::from(Goniometer::from_degrees(deg, entrance, 0.0, rotation));
                 let error = (geometry.observation() / deg.to_radians() - 1.0).abs();
-                // One rounding of a direction, 1.1e-16, over the angle, and another for the chord's components.
+                // One rounding of a direction, 1.1e-16, over the angle, and another for the chord's
+                // components.
                 let rounding = 4e-16 / deg.to_radians();
                 assert!(error < rounding, "{deg} at {entrance}: off by {error:e}");
                 assert!(deg < 0.1 || error < 1e-12, "{deg} at {entrance}: off by {error:e}");
@@ -117,8 +118,8 @@ fn the_glare_of_the_front_surface_misses_the_receiver_by_twice_the_entrance_angl
 
 #[test]
 fn rotation_is_counter_clockwise_seen_from_the_source() {
-    // The receiver is above the source; a datum axis turned by +90 degrees points to the source's left, from where
-    // the receiver's azimuth is -90 degrees.
+    // The receiver is above the source; a datum axis turned by +90 degrees points to the source's left, from
+    // where the receiver's azimuth is -90 degrees.
     let geometry = Geometry::from(Goniometer::from_degrees(1.0, 0.0, 0.0, 90.0));
     assert!(geometry.wo.y < -0.017 && geometry.wo.x.abs() < 1e-12, "{geometry:?}");
 }

@@ -1,4 +1,5 @@
-//! Promise: what is written for ASAM `OpenMATERIAL` 3D is what its schemas (version 1.0.0) demand, and means the material.
+//! Promise: what is written for ASAM `OpenMATERIAL` 3D is what its schemas (version 1.0.0) demand, and means
+//! the material.
 
 use std::f64::consts::{FRAC_PI_2, TAU};
 

@@ -1,4 +1,5 @@
-//! Promise: a lobe with an entrance law keeps its angular width and follows its law, and what is no sheeting is found out.
+//! Promise: a lobe with an entrance law keeps its angular width and follows its law, and what is no sheeting
+//! is found out.
 
 use catseye::{Lobe as _, Model, Params, Reciprocal, Vec3};
 use catseye_photometry::{EntranceLaw, Geometry, Goniometer, Quantity, RetroLobe, Sheeting};
@@ -31,7 +32,8 @@ fn at_observation_angle_0_r_a_follows_the_law() {
 
 #[test]
 fn the_width_is_the_same_at_every_entrance_angle() {
-    // Half-power angle 0.4 degrees. The node's own lobe has 0.508 of its peak there at 0 degrees and 0.068 at 60.
+    // Half-power angle 0.4 degrees. The node's own lobe has 0.508 of its peak there at 0 degrees and 0.068 at
+    // 60.
     let sheeting = sheeting(0.005_929_4, EntranceLaw::power(1.0));
     for entrance_deg in [0.0, 15.0, 30.0, 45.0, 60.0] {
         for observation_deg in [0.1, 0.2, 0.4] {

@@ -1,4 +1,5 @@
-//! Promise: every value that comes with the crate has a source, and a class is found by any name that means it.
+//! Promise: every value that comes with the crate has a source, and a class is found by any name that means
+//! it.
 
 use catseye_photometry::Row;
 use catseye_photometry::standards::{Catalogue, StandardClass};
