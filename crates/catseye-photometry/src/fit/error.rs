@@ -4,7 +4,8 @@ use super::select::MAX_LOBES;
 use super::{FitOptions, Observation};
 use crate::significant;
 
-/// Values that a fit takes. More of them say nothing that these don't, and a second per thousand is lost.
+/// Values that a fit takes. More of them say nothing that these don't, and so many already take a minute
+/// or more.
 pub const MAX_VALUES: usize = 10_000;
 
 /// Why there is no fit: what is wrong with the data or the options, and the way out.
