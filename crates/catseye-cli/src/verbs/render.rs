@@ -129,6 +129,24 @@ enum Format {
     Exr,
 }
 
+/// What is shown: the built-in scene with materials for its parts, or a sphere and a sheet.
+enum Subject {
+    Night(Vec<Option<Material>>),
+    Preview(Box<[Material; 2]>),
+}
+
+impl Subject {
+    fn scene(&self, lighting: Lighting) -> anyhow::Result<Scene> {
+        Ok(match self {
+            Self::Night(sheeting) => {
+                let of = |i: usize| sheeting.get(i).and_then(Option::as_ref);
+                Scene::builtin_of(std::array::from_fn(of), lighting)?
+            }
+            Self::Preview(materials) => Scene::preview_of(materials.each_ref(), lighting)?,
+        })
+    }
+}
+
 /// A picture and what it shows.
 struct Shot {
     image: Image,
@@ -163,7 +181,9 @@ impl Args {
         let format = output::format(&self.output, self.format)?;
         let output = Output::new(&self.output)?;
         let lamps = self.lamps(format)?;
-        let shots = lamps.iter().map(|lamp| self.shot(*lamp, format)).collect::<anyhow::Result<Vec<_>>>()?;
+        let subject = self.subject()?;
+        let shots = lamps.iter().map(|lamp| self.shot(&subject, *lamp, format));
+        let shots = shots.collect::<anyhow::Result<Vec<_>>>()?;
         output.write(&self.encode(&shots, format)?)?;
         let oversampling = self.oversampling(format);
         let spp = self.settings(oversampling)?.spp * (oversampling * oversampling) as u32;
@@ -181,14 +201,15 @@ impl Args {
         Ok(if angles.is_empty() { vec![None] } else { angles.iter().copied().map(Some).collect() })
     }
 
-    fn shot(&self, lamp_deg: Option<f32>, format: Format) -> anyhow::Result<Shot> {
-        let (scene, is_night) = self.load_scene(Lighting { model: self.model.0, lamp_deg })?;
+    fn shot(&self, subject: &Subject, lamp_deg: Option<f32>, format: Format) -> anyhow::Result<Shot> {
+        let scene = subject.scene(Lighting { model: self.model.0, lamp_deg })?;
         let progress = Progress::new("rendering", STEPS as u64);
         let settings = self.settings(self.oversampling(format))?;
         let image = render(&scene, &settings, &|share| progress.set((share * STEPS) as u64))?;
         let tone_map = self.exposure.tone_map(&scene, &image);
         let exposure_ev = Some(tone_map.exposure_ev);
         let info = PictureInfo { command: command(), exposure_ev, ..scene.info().clone() };
+        let is_night = matches!(subject, Subject::Night(_));
         let signs = is_night.then(|| Scene::BUILTIN_SIGN_WHITES.map(|at| luminance_at(&image, at)));
         Ok(Shot { image, tone_map, info, signs })
     }
@@ -217,28 +238,23 @@ impl Args {
         }
     }
 
-    /// The scene, and whether it is the built-in one.
-    fn load_scene(&self, lighting: Lighting) -> anyhow::Result<(Scene, bool)> {
-        let is_night = self.document.is_none() || self.scene == Some(SceneArg::Night);
-        let scene = match (&self.document, self.scene) {
+    fn subject(&self) -> anyhow::Result<Subject> {
+        match (&self.document, self.scene) {
             (None, Some(SceneArg::Preview)) => {
                 bail!(Usage("--scene preview needs a MATERIAL.mtlx to show".to_owned()))
             }
-            (None, _) => Scene::builtin(None, lighting),
+            (None, _) => Ok(Subject::Night(Vec::new())),
             (Some(path), Some(SceneArg::Night)) => {
-                let sheeting = self.materials(path, &Scene::BUILTIN_GEOMETRY)?;
-                Scene::builtin_of(std::array::from_fn(|i| sheeting[i].as_ref()), lighting)
+                Ok(Subject::Night(self.materials(path, &Scene::BUILTIN_GEOMETRY)?))
             }
-            (Some(path), _) => {
-                let materials = self.materials(path, &Scene::PREVIEW_GEOMETRY)?;
-                let [Some(sphere), Some(sheet)] = &materials[..] else {
+            (Some(path), _) => match <[_; 2]>::try_from(self.materials(path, &Scene::PREVIEW_GEOMETRY)?) {
+                Ok([Some(sphere), Some(sheet)]) => Ok(Subject::Preview(Box::new([sphere, sheet]))),
+                _ => {
                     let geometry = Scene::PREVIEW_GEOMETRY.join(" or ");
                     bail!("{}: the look assigns nothing to {geometry}", path.display())
-                };
-                Scene::preview_of([sphere, sheet], lighting)
-            }
-        };
-        Ok((scene?, is_night))
+                }
+            },
+        }
     }
 
     /// The material of each of a scene's parts: the look's, or the same one for all of them.

@@ -29,7 +29,8 @@ fn another_seed_gives_other_noise_only() {
     let scene = Scene::builtin(None, Model::Reciprocal).unwrap();
     let [a, b] = [0, 1].map(|seed| render(&scene, &settings(None, seed), &|_| ()).unwrap());
     assert!(a != b);
-    let [a, b] = [a.mean()[1], b.mean()[1]];
+    // As a screen shows it: the mean of the light is that of a few studs, which samples hit or miss.
+    let [a, b] = [a, b].map(|image| image.toned(scene.tone_map()).mean()[1]);
     assert!((a / b - 1.0).abs() < 0.1, "{a} {b}");
 }
 
