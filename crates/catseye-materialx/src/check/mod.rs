@@ -28,6 +28,8 @@ use crate::{
 const MAX_PROBLEMS: usize = 200;
 /// Materials that are refused, each by a builder without a past; the rest is not built.
 const MAX_REFUSED: usize = 16;
+/// Builders that reach a limit with several materials together: each has done as much as reading may take.
+const MAX_EXHAUSTED: usize = 2;
 
 /// How bad it is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -191,8 +193,11 @@ fn refused<'a>(
     if refuses_all {
         return;
     }
-    let mut next = 0;
+    let (mut next, mut exhausted) = (0, 0);
     for program in programs {
+        if exhausted >= MAX_EXHAUSTED {
+            break;
+        }
         let mut builder = Builder::new(graph, library, program);
         let mut is_new = true;
         while let Some(material) = materials.get(next) {
@@ -203,7 +208,10 @@ fn refused<'a>(
                     next += 1;
                     break;
                 }
-                Err(_) => break,
+                Err(error) => {
+                    exhausted += usize::from(matches!(error, Error::Limit { .. }));
+                    break;
+                }
             }
             next += 1;
             is_new = false;
