@@ -10,8 +10,7 @@ use crate::query::{Query, TableArgs};
 /// Directional albedo: CSV in, CSV out
 ///
 /// Adds `albedo_r`, `albedo_g`, `albedo_b`: the share of the energy arriving along wo that is reflected, in
-/// [0, 1]. In f64 by quadrature, to 1e-9, or to 1e-6 where the roughness is above 1 and wo within 10 degrees
-/// of the horizon; in f32 the fast approximation that eval and sample use.
+/// [0, 1]. In f64 by quadrature, to 1e-9; in f32 the fast approximation that eval and sample use.
 #[derive(Debug, clap::Args)]
 #[command(after_help = crate::help::ALBEDO, after_long_help = crate::help::table(crate::help::ALBEDO))]
 pub(crate) struct Args {
