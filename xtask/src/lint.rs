@@ -1,13 +1,14 @@
 //! What the compiler and its companions can say without running anything.
 
+use std::fs;
 use std::process::Command;
 
-use anyhow::Result;
+use anyhow::{Context as _, Result, ensure};
 
 use crate::package;
 use crate::tool::{self, cargo, has_cargo, output, run_cargo};
 
-/// Formatting, clippy, documentation, the BSDF without std, and the packages.
+/// Formatting, the width of lines, clippy, documentation, the BSDF without std, and the packages.
 pub(crate) fn run() -> Result<()> {
     if has_cargo("fmt", "run `rustup component add rustfmt`")? {
         run_cargo("fmt --all --check")?;
@@ -15,6 +16,7 @@ pub(crate) fn run() -> Result<()> {
     if has_cargo("clippy", "run `rustup component add clippy`")? {
         run_cargo("clippy --release --workspace --all-targets -- -D warnings")?;
     }
+    widths()?;
     document()?;
     without_std()?;
     package::run()
@@ -39,4 +41,39 @@ fn without_std() -> Result<()> {
 /// Whether a target has no operating system, and so no std.
 fn is_bare(target: &str) -> bool {
     target.contains("-none")
+}
+
+/// Lines within the columns that people read in: 110 in Rust, 120 in Markdown. Exempt are what can't be broken, which
+/// is text in quotes, tables, listings and links, and generated files.
+fn widths() -> Result<()> {
+    let files = output(Command::new("git").args(["ls-files", "*.rs", "*.md"]).current_dir(tool::root()));
+    let Some(files) = files else {
+        eprintln!("xtask: SKIPPED: the width of lines, since git doesn't list the files");
+        return Ok(());
+    };
+    let mut wide = Vec::new();
+    for file in files.lines() {
+        let text =
+            fs::read_to_string(tool::root().join(file)).with_context(|| format!("{file}: can't be read"))?;
+        if !text.starts_with("// Generated") {
+            wide.extend(wide_lines(&text, file.ends_with(".md")).map(|n| format!("{file}:{n}")));
+        }
+    }
+    ensure!(wide.is_empty(), "wider than 110 columns in Rust or 120 in Markdown: {}", wide.join(", "));
+    Ok(())
+}
+
+/// The numbers of lines that are too wide.
+fn wide_lines(text: &str, is_markdown: bool) -> impl Iterator<Item = usize> {
+    let most = if is_markdown { 120 } else { 110 };
+    let mut listing = false;
+    text.lines().enumerate().filter_map(move |(i, line)| {
+        listing ^= is_markdown && line.starts_with("```");
+        let indivisible = if is_markdown {
+            listing || line.starts_with(['|', ' ']) || line.contains("](")
+        } else {
+            line.contains('"') || line.contains("// |") || line.contains("](")
+        };
+        (!indivisible && line.chars().count() > most).then_some(i + 1)
+    })
 }
