@@ -1,8 +1,8 @@
 //! Fits the tables of `catseye::albedo::Fit` to the exact albedo.
 //!
 //! One weighted linear least-squares problem per table: the unknowns are the Chebyshev coefficients of the
-//! polynomials' coefficients, the rows are exact losses on a grid of widths, ratios and directions. A few rounds of
-//! re-weighting by the residuals bring it near the smallest maximum error (Lawson's algorithm).
+//! polynomials' coefficients, the rows are exact losses on a grid of widths, ratios and directions. A few
+//! rounds of re-weighting by the residuals bring it near the smallest maximum error (Lawson's algorithm).
 
 use std::f64::consts::{FRAC_PI_2, PI};
 use std::fmt::Write as _;
@@ -18,7 +18,8 @@ const CENTRE: f64 = 0.6;
 /// The generated file, from the workspace's root.
 pub(crate) const OUTPUT: &str = "crates/catseye/src/albedo/tables.rs";
 
-/// Grid of the least-squares rows: widths, ratios (below 1, which marks the isotropic rows), polar angles, azimuths, and polar angles of the isotropic rows.
+/// Grid of the least-squares rows: widths, ratios (below 1, which marks the isotropic rows), polar angles,
+/// azimuths, and polar angles of the isotropic rows.
 const GRID: [usize; 5] = [22, 20, 14, 12, 20];
 
 /// Shape of one table.
@@ -161,8 +162,8 @@ impl Shape {
     ) -> Result<Vec<f64>> {
         let n_c = self.coefficients();
         let size = self.terms[0] * self.terms[1] * n_c;
-        // The normal matrix is a sum over the blocks of (t_m t_m^T) x (t_k t_k^T) x (basis^T W^2 basis). The inner
-        // products are summed over the blocks of equal width first.
+        // The normal matrix is a sum over the blocks of (t_m t_m^T) x (t_k t_k^T) x (basis^T W^2 basis). The
+        // inner products are summed over the blocks of equal width first.
         let [n_m, n_k] = self.terms;
         let inner = n_k * n_c;
         let mut widths: Vec<f64> = blocks.iter().map(|b| b.m).collect();

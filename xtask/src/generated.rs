@@ -30,8 +30,8 @@ struct Tolerance {
     relative: f64,
 }
 
-/// The albedo fits. The least-squares problem is ill-conditioned: relative changes of 2e-15 in its input change
-/// coefficients by up to 2.7e-4, and the fit by 3.4e-6. Its error is another test's business.
+/// The albedo fits. The least-squares problem is ill-conditioned: relative changes of 2e-15 in its input
+/// change coefficients by up to 2.7e-4, and the fit by 3.4e-6. Its error is another test's business.
 pub(crate) const TABLES: Generator = Generator {
     chore: "fit-albedo",
     generate: || Ok(vec![(fit_albedo::OUTPUT, fit_albedo::generate()?)]),

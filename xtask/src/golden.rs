@@ -1,4 +1,5 @@
-//! Writes the project's own conformance vectors, in double precision, from the exact albedo where there is a choice.
+//! Writes the project's own conformance vectors, in double precision, from the exact albedo where there is a
+//! choice.
 
 use std::fmt::Write as _;
 
@@ -47,7 +48,8 @@ fn direction(u: f64, v: f64) -> Vec3<f64> {
     Vec3::new(s * cos, s * sin, z)
 }
 
-/// BSDF values with both tints. Half of the directions are samples of the lobe, so that narrow lobes are seen.
+/// BSDF values with both tints. Half of the directions are samples of the lobe, so that narrow lobes are
+/// seen.
 fn eval() -> Result<String> {
     let mut out = String::from(
         "roughness_u,roughness_v,tint_r,tint_g,tint_b,multiscatter_tint_r,multiscatter_tint_g,multiscatter_tint_b,\

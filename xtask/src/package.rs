@@ -8,8 +8,9 @@ use anyhow::{Context as _, Result, ensure};
 
 use crate::tool::{self, cargo, run_cargo};
 
-/// Packages the crates as `cargo publish` would and checks them outside the workspace, where no path leads back to a
-/// file that was not packaged. They find each other as local files, since crates.io has none of them yet.
+/// Packages the crates as `cargo publish` would and checks them outside the workspace, where no path leads
+/// back to a file that was not packaged. They find each other as local files, since crates.io has none of
+/// them yet.
 pub(crate) fn run() -> Result<()> {
     let packages = tool::root().join("target/package");
     // What an earlier run has packaged must not be taken for this one's.

@@ -23,8 +23,8 @@ const GLSL_TAIL: &str = include_str!("shader_albedo/tail.glsl");
 const OSL_HEAD: &str = include_str!("shader_albedo/head.osl");
 const OSL_TAIL: &str = include_str!("shader_albedo/tail.osl");
 
-/// Chebyshev polynomials in the width (a) and the ratio (b) are unrolled: MSL and WGSL have no constant arrays that
-/// MaterialX's generators could write.
+/// Chebyshev polynomials in the width (a) and the ratio (b) are unrolled: MSL and WGSL have no constant
+/// arrays that MaterialX's generators could write.
 fn glsl() -> Result<String> {
     let mut out = format!("{GLSL_HEAD}\n");
     writeln!(out, "#define RETRO_REFLECTIVE_ALBEDO_KAPPA {COMPACT_KAPPA:?}\n")?;

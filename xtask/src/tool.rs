@@ -42,7 +42,8 @@ pub(crate) fn output(command: &mut Command) -> Option<String> {
     String::from_utf8(output.stdout).ok()
 }
 
-/// Whether `cargo NAME` is there. Where everything is required, a missing one is an error that names the way out.
+/// Whether `cargo NAME` is there. Where everything is required, a missing one is an error that names the way
+/// out.
 pub(crate) fn has_cargo(name: &str, remedy: &str) -> Result<bool> {
     let found = output(&mut cargo(&format!("{name} --version"))).is_some();
     let required = env::var("CATSEYE_REQUIRE").is_ok_and(|value| value == "all");

@@ -1,9 +1,10 @@
 //! Prints what the outputs of MaterialX documents are at points of a surface.
 //!
-//! `outputs POINTS < DOCUMENTS`: a line of POINTS is a point (position in the world, in the object, normal, tangent,
-//! bitangent, texture coordinates, view: 20 numbers); documents are separated by form feeds. For each document, for
-//! each of its outputs, for each point, a line: four numbers, or in place of all of them `error: ` and why; then a form feed.
-//! Definitions and pictures come from the folders of `MATERIALX_SEARCH_PATH`.
+//! `outputs POINTS < DOCUMENTS`: a line of POINTS is a point (position in the world, in the object, normal,
+//! tangent, bitangent, texture coordinates, view: 20 numbers); documents are separated by form feeds. For
+//! each document, for each of its outputs, for each point, a line: four numbers, or in place of all of them
+//! `error: ` and why; then a form feed. Definitions and pictures come from the folders of
+//! `MATERIALX_SEARCH_PATH`.
 //!
 //! `outputs --categories` prints the categories of nodes that are built in.
 #![expect(clippy::print_stdout, reason = "this is what it is for")]

@@ -76,7 +76,8 @@ fn without_an_acceptable_fit_nothing_is_written_and_the_reason_is_told() {
     assert_eq!(accepted.code, 0, "{}", accepted.stderr);
 }
 
-/// A lobe of two roughnesses narrows in the plane of incidence: beyond the rows it is gone, though every row is met.
+/// A lobe of two roughnesses narrows in the plane of incidence: beyond the rows it is gone, though every row
+/// is met.
 #[test]
 fn a_material_that_is_none_between_the_rows_is_not_written() {
     let bench = Bench::new();

@@ -1,4 +1,5 @@
-//! Promise: no document, however hostile, panics, overflows the stack, or takes more than bounded time and memory.
+//! Promise: no document, however hostile, panics, overflows the stack, or takes more than bounded time and
+//! memory.
 
 use std::time::{Duration, Instant};
 
@@ -248,7 +249,8 @@ fn mutated() -> impl Strategy<Value = Vec<u8>> {
     })
 }
 
-/// Four nodes that combine each other or a leaf: trees, shared nodes, cycles, dangling and mistyped connections.
+/// Four nodes that combine each other or a leaf: trees, shared nodes, cycles, dangling and mistyped
+/// connections.
 fn any_graph() -> impl Strategy<Value = String> {
     const NODES: &[(&str, [&str; 2])] = &[
         ("mix", ["fg", "bg"]),

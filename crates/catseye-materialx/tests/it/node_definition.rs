@@ -1,4 +1,5 @@
-//! Promise: the node definition, Rust's defaults and the documentation's table say the same, and the generated files are fresh.
+//! Promise: the node definition, Rust's defaults and the documentation's table say the same, and the
+//! generated files are fresh.
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
 use std::fs;
@@ -11,7 +12,8 @@ fn root() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
 }
 
-/// Name, type and default of every input of a definition; a default that is a geometric property is given by its name.
+/// Name, type and default of every input of a definition; a default that is a geometric property is given by
+/// its name.
 fn ports(nodedef: &str) -> Vec<[String; 3]> {
     let path = root().join("crates/catseye-materialx/libraries/catseye/catseye_defs.mtlx");
     let text = fs::read_to_string(path).unwrap();

@@ -57,7 +57,8 @@ fn retro_sheeting() -> Closure {
 }
 
 fn anisotropic_tape() -> Closure {
-    // Above 0.04045; `colours_are_converted_from_the_nearest_colour_space` checks the conversion by its values.
+    // Above 0.04045; `colours_are_converted_from_the_nearest_colour_space` checks the conversion by its
+    // values.
     let linear_from_srgb = |x: f32| ((x + 0.055) / 1.055).powf(2.4);
     let yellow = [0.97, 0.87, 0.28].map(linear_from_srgb);
     let green = [0.87, 0.88, 0.25].map(linear_from_srgb);

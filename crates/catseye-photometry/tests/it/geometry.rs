@@ -74,7 +74,8 @@ proptest! {
         observation in 0.1_f64..10.0, entrance_1 in -80.0_f64..80.0,
         entrance_2 in -80.0_f64..80.0, rotation in -179.0_f64..180.0,
     ) {
-        let geometry = Geometry::from(Goniometer::from_degrees(observation, entrance_1, entrance_2, rotation));
+        let goniometer = Goniometer::from_degrees(observation, entrance_1, entrance_2, rotation);
+        let geometry = Geometry::from(goniometer);
         let same = Geometry::from(Intrinsic::from(geometry));
         for (a, b) in [(geometry.wo, same.wo), (geometry.wi, same.wi)] {
             let distance = (a.x - b.x).abs() + (a.y - b.y).abs() + (a.z - b.z).abs();

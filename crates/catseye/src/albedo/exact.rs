@@ -76,8 +76,8 @@ impl Quadrature {
     /// direction.
     ///
     /// With `e = (m_u cos psi, m_v sin psi)`, rho is the mean over psi of `g(o_xy . e / |e|, 1/|e|^2 - 1)`.
-    /// The integrand has kinks where `o_xy . e = 0`, and it is steep where e lies along o_xy, for directions
-    /// near the horizon, and at the ends of a narrow ellipse: the range is split at all of them.
+    /// The integrand has kinks where `o_xy . e = 0`, and it is steep where e lies along `o_xy`, for
+    /// directions near the horizon, and at the ends of a narrow ellipse: the range is split at all of them.
     #[must_use]
     pub fn loss(&self, [m_u, m_v]: [f64; 2], [x, y]: [f64; 2]) -> f64 {
         // psi in [0, pi] where e lies along o_xy, and where it is perpendicular to it.
@@ -85,7 +85,7 @@ impl Quadrature {
         let parallel = first_half(atan2(m_u * y.abs(), m_v * x.abs()), x * y >= 0.0);
         let crossing = first_half(atan2(m_u * x.abs(), m_v * y.abs()), x * y <= 0.0);
         let mut breaks = [0.0, crossing, parallel, FRAC_PI_2, PI];
-        breaks.sort_by(f64::total_cmp);
+        breaks.sort_unstable_by(f64::total_cmp);
         let mut sum = 0.0;
         for pair in breaks.windows(2) {
             let (start, range) = (pair[0], pair[1] - pair[0]);

@@ -46,7 +46,7 @@ fn the_quadrature_is_the_same_along_every_azimuth() {
     for r in [0.3, 1.2, 3.0, 5.0, 50.0] {
         for theta in [0.5, 1.2, 1.4, 1.52, 1.569] {
             let rho = |phi: f64| exact::directional([r, r], Vec3::from_angles(theta, phi));
-            for phi in [0.3, 0.785, 1.2, 1.5708, 2.5] {
+            for phi in [0.3, 0.785, 1.2, 1.57, 2.5] {
                 let difference = (rho(phi) - rho(0.0)).abs();
                 assert!(difference < 1e-12, "r {r}, theta {theta}, phi {phi}: {difference:e}");
             }

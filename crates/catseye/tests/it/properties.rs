@@ -79,24 +79,39 @@ fn check<T: Real>(
     Ok(())
 }
 
+fn config(cases: u32, seed: u64) -> ProptestConfig {
+    let rng_seed = proptest::test_runner::RngSeed::Fixed(seed);
+    ProptestConfig { cases, failure_persistence: None, rng_seed, ..ProptestConfig::default() }
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 4000, failure_persistence: None, rng_seed: proptest::test_runner::RngSeed::Fixed(1), ..ProptestConfig::default() })]
+    #![proptest_config(config(4000, 1))]
 
     #[test]
-    fn directions_give_sane_values(params in any_params(), wo in unit_vector(), wi in unit_vector(), u in [0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64]) {
+    fn directions_give_sane_values(
+        params in any_params(),
+        wo in unit_vector(),
+        wi in unit_vector(),
+        u in [0.0..1.0_f64, 0.0..1.0_f64, 0.0..1.0_f64],
+    ) {
         check::<f64>(&params, wo, wi, u, true)?;
         check::<f32>(&params, wo, wi, u, true)?;
     }
 
     #[test]
-    fn nonsense_does_not_panic(params in any_params(), wo in any_vector(), wi in any_vector(), u in [any_number(), any_number(), any_number()]) {
+    fn nonsense_does_not_panic(
+        params in any_params(),
+        wo in any_vector(),
+        wi in any_vector(),
+        u in [any_number(), any_number(), any_number()],
+    ) {
         check::<f64>(&params, wo, wi, u, false)?;
         check::<f32>(&params, wo, wi, u, false)?;
     }
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 200, failure_persistence: None, rng_seed: proptest::test_runner::RngSeed::Fixed(2), ..ProptestConfig::default() })]
+    #![proptest_config(config(200, 2))]
 
     #[test]
     fn exact_albedo_is_a_share(u in 0.0..1.0_f64, v in 0.0..1.0_f64, wo in unit_vector()) {

@@ -41,7 +41,8 @@ impl Args {
     }
 }
 
-/// Which way the light goes: f cos in the plane of incidence, a panel for each roughness and angle, a curve for each model
+/// Which way the light goes: f cos in the plane of incidence, a panel for each roughness and angle, a curve
+/// for each model
 ///
 /// The back-vector model has the GGX alpha that gives it the peak of the others at normal incidence:
 /// sqrt(r^2 / (r^2 + 2)) for the roughness r.
@@ -115,7 +116,8 @@ impl AlbedoArgs {
     }
 }
 
-/// What the node looks like beside MaterialX's `retroreflective`: spheres of both lobes, a lamp half way to the camera
+/// What the node looks like beside MaterialX's `retroreflective`: spheres of both lobes, a lamp half way to
+/// the camera
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::PLOT_SPHERES)]
 struct SpheresArgs {

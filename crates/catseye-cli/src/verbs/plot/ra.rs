@@ -29,10 +29,11 @@ const LEAST_END_DEG: f64 = 2.0;
 /// `R_A` at a geometry, in cd/lx/m2.
 type Coefficient = Box<dyn Fn(&Geometry) -> anyhow::Result<f64>>;
 
-/// R_A over the observation angle, one curve for each entrance angle, with the values of a standard or a table
+/// R_A over the observation angle, one curve for each entrance angle, with the values of a standard or a
+/// table
 ///
-/// Of a material, or of one lobe with --roughness and --tint. Upright triangles are minima, inverted ones maxima, dots are
-/// typical values; each has the colour of its entrance angle.
+/// Of a material, or of one lobe with --roughness and --tint. Upright triangles are minima, inverted ones
+/// maxima, dots are typical values; each has the colour of its entrance angle.
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::PLOT_RA)]
 #[command(group = ArgGroup::new("subject").required(true))]
