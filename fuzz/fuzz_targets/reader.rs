@@ -15,7 +15,11 @@ fuzz_target!(|bytes: &[u8]| {
     let _ = (document.looks(), document.warnings());
     match document.outputs() {
         Err(error) => assert_one_line(&error.to_string()),
-        Ok(outputs) => outputs.iter().for_each(|output| drop(output.at(&ShadingPoint::default()))),
+        Ok(outputs) => {
+            for output in &outputs {
+                let _ = output.at(&ShadingPoint::default());
+            }
+        }
     }
     match document.materials() {
         Err(error) => assert_one_line(&error.to_string()),
