@@ -207,7 +207,7 @@ fn the_fitted_materials_are_what_their_commands_write() {
         assert_eq!(fit.code, 0, "{command}: {}", fit.stderr);
         let standard = command.split_whitespace().nth(1).unwrap();
         let values = |material: &str| {
-            let run = bench.shell(&format!("catseye measure {material} --standard {standard}"));
+            let run = bench.shell(&format!("catseye measure '{material}' --standard {standard}"));
             assert_eq!((run.code, run.stderr.as_str()), (0, ""), "{material}");
             measured(&run.stdout)
         };
