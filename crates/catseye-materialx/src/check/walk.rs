@@ -42,7 +42,7 @@ pub(super) fn walk<'a>(graph: &Graph<'a>, root: &'a Element, library: &'a Librar
         seen: HashSet::new(),
         entered: HashSet::new(),
     };
-    checker.scope(root, ROOT, 0);
+    checker.scope(root, ROOT);
     checker.cycles();
     let is_full = checker.is_full();
     checker.found.more += usize::from(is_full);
@@ -76,14 +76,14 @@ impl<'a> Checker<'a, '_> {
     }
 
     /// Checks the nodes and outputs of the document or a nodegraph.
-    fn scope(&mut self, element: &'a Element, scope: ScopeId, depth: usize) {
+    fn scope(&mut self, element: &'a Element, scope: ScopeId) {
         for child in element.children() {
             if self.is_full() {
                 return;
             }
             let node = NodeRef { element: child, scope };
             match child.tag() {
-                "nodegraph" => self.nodegraph(child, scope, depth),
+                "nodegraph" => self.nodegraph(child, scope),
                 "output" => self.output(node),
                 // The nodegraph's own, which may be connected to what is around it; checked there.
                 "input" => {}
@@ -96,9 +96,8 @@ impl<'a> Checker<'a, '_> {
         }
     }
 
-    fn nodegraph(&mut self, graph: &'a Element, around: ScopeId, depth: usize) {
-        // Elements are nested no deeper than this: the parser has seen to it.
-        let _ = depth;
+    /// Nodegraphs in nodegraphs are no deeper than elements may be nested: the parser has seen to it.
+    fn nodegraph(&mut self, graph: &'a Element, around: ScopeId) {
         let node = NodeRef { element: graph, scope: around };
         // A graph that defines a node has its interface from the node that uses it, and is checked there.
         if graph.attribute("nodedef").is_some() {
@@ -112,7 +111,7 @@ impl<'a> Checker<'a, '_> {
             self.report(result);
         }
         match self.graph.enter(graph, node, false) {
-            Ok(inner) => self.scope(graph, inner, depth + 1),
+            Ok(inner) => self.scope(graph, inner),
             Err(problem) => self.found.problems.push(problem),
         }
     }
@@ -244,7 +243,7 @@ impl<'a> Checker<'a, '_> {
             return;
         }
         match self.graph.enter(graph, node, true) {
-            Ok(inner) => self.scope(graph, inner, 0),
+            Ok(inner) => self.scope(graph, inner),
             Err(problem) => self.found.problems.push(problem),
         }
     }
