@@ -222,11 +222,7 @@ impl LobeFigure {
     {
         let frame = Polar::new([left, TOP], self.panel_width(), self.greatest);
         frame.draw(canvas, panel.theta_deg, &panel.title)?;
-        for curve in &panel.curves {
-            let (color, width) = curve.style();
-            let points: Vec<_> = curve.values.iter().map(|&value| frame.place(value)).collect();
-            canvas.line(&points, color, width)?;
-        }
+        panel.draw_curves(canvas, |at| Some(frame.place(at)))?;
         frame.draw_light(canvas, panel.theta_deg)
     }
 
@@ -245,13 +241,7 @@ impl LobeFigure {
         let mut y_ticks = ticks(top, 5.0);
         y_ticks.insert(0, 0.0);
         frame.draw(canvas, [&x_ticks, &y_ticks], ["outgoing angle", &panel.title])?;
-        for curve in &panel.curves {
-            let (color, width) = curve.style();
-            let shown = curve.values.iter().filter(|(angle, _)| x.contains(angle));
-            let points: Vec<_> = shown.map(|&value| frame.place(value)).collect();
-            canvas.line(&points, color, width)?;
-        }
-        Ok(())
+        panel.draw_curves(canvas, |at| x.contains(&at.0).then(|| frame.place(at)))
     }
 
     fn draw_log<DB: DrawingBackend>(
@@ -270,14 +260,10 @@ impl LobeFigure {
         let y_ticks: Vec<_> = (0..=DECADES).step_by(2).map(label).collect();
         frame.draw_labelled(canvas, &x_ticks, &y_ticks, ["outgoing angle", &panel.title])?;
         let peak = panel.greatest();
-        for curve in &panel.curves {
-            let (color, width) = curve.style();
-            let shown = curve.values.iter().filter(|(angle, _)| x.contains(angle));
-            let logs = shown.map(|&(angle, value)| (angle, (value / peak).log10()));
-            let above: Vec<_> = logs.filter(|(_, log)| *log >= bottom).map(|at| frame.place(at)).collect();
-            canvas.line(&above, color, width)?;
-        }
-        Ok(())
+        panel.draw_curves(canvas, |(angle, value)| {
+            let log = (value / peak).log10();
+            (x.contains(&angle) && log >= bottom).then(|| frame.place((angle, log)))
+        })
     }
 
     fn draw_legend<DB: DrawingBackend>(&self, canvas: &Canvas<'_, DB>) -> anyhow::Result<()>
@@ -296,6 +282,23 @@ impl LobeFigure {
 }
 
 impl Panel {
+    /// Draws the curves through where `place` puts their values; what it puts nowhere is left out.
+    fn draw_curves<DB: DrawingBackend>(
+        &self,
+        canvas: &Canvas<'_, DB>,
+        place: impl Fn((f64, f64)) -> Option<(f64, f64)>,
+    ) -> anyhow::Result<()>
+    where
+        DB::ErrorType: 'static,
+    {
+        for curve in &self.curves {
+            let (color, width) = curve.style();
+            let points: Vec<_> = curve.values.iter().filter_map(|&value| place(value)).collect();
+            canvas.line(&points, color, width)?;
+        }
+        Ok(())
+    }
+
     fn greatest(&self) -> f64 {
         self.curves.iter().flat_map(|curve| &curve.values).map(|&(_, value)| value).fold(0.0, f64::max)
     }

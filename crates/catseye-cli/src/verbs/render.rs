@@ -181,12 +181,13 @@ impl Args {
         let format = output::format(&self.output, self.format)?;
         let output = Output::new(&self.output)?;
         let lamps = self.lamps(format)?;
-        let subject = self.subject()?;
-        let shots = lamps.iter().map(|lamp| self.shot(&subject, *lamp, format));
-        let shots = shots.collect::<anyhow::Result<Vec<_>>>()?;
-        output.write(&self.encode(&shots, format)?)?;
         let oversampling = self.oversampling(format);
-        let spp = self.settings(oversampling)?.spp * (oversampling * oversampling) as u32;
+        let settings = self.settings(oversampling)?;
+        let subject = self.subject()?;
+        let shots = lamps.iter().map(|lamp| self.shot(&subject, *lamp, &settings));
+        let shots = shots.collect::<anyhow::Result<Vec<_>>>()?;
+        output.write(&self.encode(&shots, format, oversampling)?)?;
+        let spp = settings.spp * (oversampling * oversampling) as u32;
         self.report(&output, &shots, spp, started.elapsed().as_secs_f64())
     }
 
@@ -201,11 +202,15 @@ impl Args {
         Ok(if angles.is_empty() { vec![None] } else { angles.iter().copied().map(Some).collect() })
     }
 
-    fn shot(&self, subject: &Subject, lamp_deg: Option<f32>, format: Format) -> anyhow::Result<Shot> {
+    fn shot(
+        &self,
+        subject: &Subject,
+        lamp_deg: Option<f32>,
+        settings: &RenderSettings,
+    ) -> anyhow::Result<Shot> {
         let scene = subject.scene(Lighting { model: self.model.0, lamp_deg })?;
         let progress = Progress::new("rendering", STEPS as u64);
-        let settings = self.settings(self.oversampling(format))?;
-        let image = render(&scene, &settings, &|share| progress.set((share * STEPS) as u64))?;
+        let image = render(&scene, settings, &|share| progress.set((share * STEPS) as u64))?;
         let tone_map = self.exposure.tone_map(&scene, &image);
         let exposure_ev = Some(tone_map.exposure_ev);
         let info = PictureInfo { command: command(), exposure_ev, ..scene.info().clone() };
@@ -214,8 +219,7 @@ impl Args {
         Ok(Shot { image, tone_map, info, signs })
     }
 
-    fn encode(&self, shots: &[Shot], format: Format) -> anyhow::Result<Vec<u8>> {
-        let oversampling = self.oversampling(format);
+    fn encode(&self, shots: &[Shot], format: Format, oversampling: usize) -> anyhow::Result<Vec<u8>> {
         Ok(match (format, shots) {
             (Format::Exr, [first, ..]) => encode_exr(&first.image, &first.info)?,
             (Format::Png, [only]) if !self.labels => encode_png(&only.shown(oversampling), &ToneMap::LINEAR)?,
