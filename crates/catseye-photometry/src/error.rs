@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use crate::digits::significant;
+use crate::drive::DriveError;
 
 /// Why a table, a value or a name was refused. The text names the place, the value and the way out.
 #[derive(Debug, thiserror::Error)]
@@ -88,4 +89,7 @@ pub enum Error {
         /// The range, in the notation `[0, 1]`, and the unit.
         range: &'static str,
     },
+    /// A scene in which there is nothing to be seen.
+    #[error(transparent)]
+    Drive(#[from] DriveError),
 }

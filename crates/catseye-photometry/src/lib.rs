@@ -25,6 +25,7 @@ mod aperture;
 pub mod brdf;
 mod colour;
 mod digits;
+pub mod drive;
 mod entrance;
 mod error;
 pub mod fit;

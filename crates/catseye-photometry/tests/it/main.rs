@@ -4,6 +4,7 @@
 mod aperture;
 mod brdf;
 mod colour;
+mod drive;
 mod fit;
 mod geometry;
 mod half_power;
