@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-use catseye::{AnyLobe, Lobe as _, Model, ParamError, Params, Vec3};
+use catseye::{AnyLobe, Edwards, Lobe as _, Model, ParamError, Params, Vec3};
 
 use crate::entrance::{EntranceLaw, LEAST_COSINE, log_squared_tangent};
 
@@ -144,7 +144,7 @@ impl UnitLobe {
                 // (theory.md, 3).
                 let reciprocal =
                     if model == Model::Reciprocal { (wi.z / wo.z).clamp(0.0, 1.0).powi(3) } else { 1.0 };
-                let edwards = AnyLobe::new(Model::Edwards, &params);
+                let edwards = Edwards::new(&params);
                 edwards.map_or(0.0, |lobe| reciprocal * lobe.eval(wo, wi)[0])
             }
         }

@@ -76,6 +76,8 @@ impl Observation {
 /// Angle from the retro direction beyond which a value is of the diffuse base, not of the lobes: a luminance
 /// factor.
 pub(crate) const RETRO_REACH: f64 = 30.0 * core::f64::consts::PI / 180.0;
+/// Angles that differ by less than this are one: a hundredth of a degree.
+pub(crate) const SAME_ANGLE: f64 = 1.8e-4;
 
 impl Observation {
     /// The middle of the directions: to the receiver, to the source. An aperture's views surround what is
@@ -85,6 +87,13 @@ impl Observation {
             self.views.iter().map(of).fold(Vec3::default(), |sum, w| sum + w).normalized()
         };
         Geometry { wo: mean(|view| view.wo), wi: mean(|view| view.wi) }
+    }
+
+    /// The same value as if it were measured between points.
+    pub(crate) fn at_centre(&self) -> Self {
+        let Geometry { wo, wi } = self.centre();
+        let factor = self.views.iter().map(|view| view.factor).sum();
+        Self { views: vec![View { wo, wi, factor }], ..*self }
     }
 
     /// Whether the value says something about the lobes.

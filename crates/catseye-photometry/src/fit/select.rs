@@ -1,7 +1,7 @@
 //! Which forms are tried, and which one is chosen.
 
 use super::form::{EntranceKind, Form};
-use super::observation::{Aim, Observation};
+use super::observation::{Aim, Observation, SAME_ANGLE};
 use super::physical::Fault;
 use super::solve::{Solution, TABLE_ROWS, polish, solve};
 use super::{FitError, FitOptions, Trial, is_acceptable};
@@ -11,8 +11,6 @@ use crate::Geometry;
 pub const MAX_LOBES: usize = 3;
 /// Most lobes that a table of a few rows is given without being asked: a third one hardly ever helps.
 const MAX_LOBES_OF_TABLE: usize = 2;
-/// Angles that differ by less than this are one: a hundredth of a degree.
-const SAME_ANGLE: f64 = 1.8e-4;
 
 /// Which angles the values near the retro direction cover.
 #[derive(Clone, Debug)]

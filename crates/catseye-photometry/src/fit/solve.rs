@@ -4,7 +4,7 @@ use levenberg_marquardt::LevenbergMarquardt;
 use rayon::prelude::*;
 
 use super::form::{Form, Meaning, Unknown};
-use super::observation::{Aim, Observation, RETRO_REACH};
+use super::observation::{Aim, Observation, RETRO_REACH, SAME_ANGLE};
 use super::problem::{Problem, aim_weight, excess, log_ratios};
 use crate::sheeting::Sheeting;
 
@@ -74,16 +74,24 @@ pub(crate) fn solve<'a>(
     let nested: Vec<Vec<f64>> = simpler.filter_map(|known| form.embed(&known.form, &known.x)).collect();
     let count = if observations.len() > TABLE_ROWS { STARTS_OF_MANY } else { STARTS };
     let fresh = (0..count).map(|start| starting_point(form, &unknowns, observations, start));
-    let starts: Vec<Vec<f64>> = nested.iter().map(|x| apart(&unknowns, x)).chain(fresh).collect();
-    let found = starts.par_iter().map(|x| {
-        descend(Problem::new(form, observations, channel_peak, x), observations, channel_peak, tolerance)
-    });
-    // In the order of the starts, so that the result does not depend on the number of cores.
-    let found: Vec<Option<Solution>> = found.collect();
-    let nested = nested.into_iter().map(|x| solution(form, x, observations, channel_peak));
+    let mut starts: Vec<Vec<f64>> = nested.iter().map(|x| apart(&unknowns, x)).chain(fresh).collect();
     let better =
         |best: Solution, next: Solution| if next.is_better_than(&best, tolerance) { next } else { best };
-    nested.chain(found).flatten().reduce(better)
+    let best_of = |starts: &[Vec<f64>], observations: &[Observation]| {
+        let found = starts.par_iter().map(|x| {
+            descend(Problem::new(form, observations, channel_peak, x), observations, channel_peak, tolerance)
+        });
+        // In the order of the starts, so that the result does not depend on the number of cores.
+        found.collect::<Vec<_>>().into_iter().flatten().reduce(better)
+    };
+    // Apertures change the solution a little and take many times as long: what points say is the start.
+    if observations.iter().any(|row| row.views.len() > 1) {
+        let points: Vec<Observation> = observations.iter().map(Observation::at_centre).collect();
+        starts = best_of(&starts, &points).map(|found| found.x).into_iter().collect();
+    }
+    let found = best_of(&starts, observations);
+    let nested = nested.into_iter().filter_map(|x| solution(form, x, observations, channel_peak));
+    nested.chain(found).reduce(better)
 }
 
 /// Lobes of the same roughness, which a simpler form's solution leaves, drawn apart: from each other nothing
@@ -226,8 +234,9 @@ fn reweight(weights: &mut [f64], observations: &[Observation], solution: &Soluti
 /// puts it.
 fn starting_point(form: Form, unknowns: &[Unknown], observations: &[Observation], start: usize) -> Vec<f64> {
     let angles = observations.iter().map(|row| row.centre().observation());
-    // The retro direction itself is no lobe's width, nor is the angle of a luminance factor.
-    let angles = angles.filter(|angle| *angle > 0.0 && *angle <= RETRO_REACH);
+    // The retro direction itself is no lobe's width, even where rounding makes it an angle, nor is the angle of
+    // a luminance factor.
+    let angles = angles.filter(|angle| (SAME_ANGLE..=RETRO_REACH).contains(angle));
     let (least, most) = angles.fold((f64::INFINITY, 0.0_f64), |(low, high), a| (low.min(a), high.max(a)));
     let reach = (1.5 * most / least).ln();
     // A sequence of low discrepancy, another one for each number; the first start is in the middle.

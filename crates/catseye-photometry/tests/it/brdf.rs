@@ -3,7 +3,7 @@
 use catseye::{Lobe as _, Params, Reciprocal, Vec3};
 use catseye_photometry::brdf::{Brdf, Cosine, Selection, Skipped, metrics};
 use catseye_photometry::fit::{EntranceKind, FitOptions, fit};
-use catseye_photometry::{Apertures, Geometry};
+use catseye_photometry::{Apertures, EntranceLaw, Geometry, RetroLobe, Sheeting};
 
 fn lobe() -> Reciprocal<f64> {
     let params = Params::isotropic(0.08).with_tint([0.9, 0.5, 0.1]).with_multiscatter_tint([0.5; 3]);
@@ -226,6 +226,65 @@ fn a_lobe_is_found_in_a_grid_that_has_the_retro_direction() {
     // The data are those of such a lobe, exactly.
     assert!((found.roughness[0] / 0.08 - 1.0).abs() < 1e-4, "{found:?}");
     assert!((found.strength / 0.5 - 1.0).abs() < 1e-4, "{found:?}");
+}
+
+/// Uniform numbers in [-1, 1), by Knuth's linear congruence.
+fn noise(state: &mut u64) -> f64 {
+    *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+    (*state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
+}
+
+/// A tape as the published ones are: two lobes on a base, light at 15, 30 and 60 degrees, rings of a degree
+/// around the retro direction, which is a sample itself up to rounding, and noise of 10 % in the mean.
+fn tape() -> Brdf {
+    let law = Some(EntranceLaw::power(3.0));
+    let lobe = |strength, roughness| RetroLobe { strength, roughness: [roughness; 2], entrance: law };
+    let tape =
+        Sheeting { lobes: vec![lobe(0.1, 0.02), lobe(0.12, 0.07)], diffuse: 0.2, ..Sheeting::default() };
+    let (prepared, mut state) = (tape.prepare().unwrap(), 1);
+    let mut text = format!("{HEADER}#PARAM_OUT INV_STERADIAN\n");
+    for light in [15.0_f64, 30.0, 60.0].map(f64::to_radians) {
+        for (ring, spoke) in (0..20).flat_map(|ring| (0..24).map(move |spoke| (ring, spoke))) {
+            let (sin, cos) = f64::from(15 * spoke).to_radians().sin_cos();
+            let offset = f64::from(ring).to_radians();
+            let [x, y] = [light + offset * cos, offset * sin];
+            let (wo, wi) = (Vec3::from_angles(x.hypot(y), y.atan2(x)), Vec3::from_angles(light, 0.0));
+            if wo.z > 0.1 && (ring > 0 || spoke == 0) {
+                let f = prepared.eval(wo, wi) * (0.1 * 3_f64.sqrt() * noise(&mut state)).exp();
+                text += &format!("{light:.17} {x:.17} {y:.17} {f:.17e}\n");
+            }
+        }
+    }
+    Brdf::parse(text.as_bytes(), "tape.dat", Cosine::AsStated).unwrap()
+}
+
+/// An aperture that is small beside the lobe changes little, and so does one that is a tenth of a degree
+/// wider.
+#[test]
+fn fits_change_smoothly_with_the_aperture() {
+    let brdf = tape();
+    let selection = Selection { count: 300, ..Selection::default() };
+    let mut before: Option<f64> = None;
+    for tenths in 0..=20 {
+        let apertures = Apertures::both_deg(0.1 * f64::from(tenths)).rule_of_degree(7).unwrap();
+        let rows = selection.observations(&brdf, &apertures);
+        let options = FitOptions {
+            lobes: Some(2),
+            entrance: Some(EntranceKind::Power),
+            isotropic: true,
+            diffuse: true,
+            tolerance: 0.4,
+            ..FitOptions::default()
+        };
+        let found = fit(&rows, &options).unwrap();
+        // The noise, and at 2 degrees what a blurred model makes of data that are not.
+        assert!(found.acceptable && found.rms < 0.105, "{tenths}: {}", found.rms);
+        assert!(found.sheeting.lobes.iter().all(|lobe| lobe.strength > 0.01), "{tenths}: {found:?}");
+        if let Some(before) = before {
+            assert!((found.rms - before).abs() < 1e-3, "{tenths}: {before} and {}", found.rms);
+        }
+        before = Some(found.rms);
+    }
 }
 
 #[test]
