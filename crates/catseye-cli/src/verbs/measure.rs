@@ -5,9 +5,11 @@ use std::path::PathBuf;
 use anyhow::{Context as _, bail};
 use catseye_materialx::Material;
 use catseye_photometry::standards::{Catalogue, StandardClass};
-use catseye_photometry::verdict::{Verdict, verdicts};
-use catseye_photometry::{Row, Table};
+use catseye_photometry::verdict::{Kind, Unjudged, Verdict, verdicts};
+use catseye_photometry::{Quantity, Row, Table};
 use catseye_render::Estimate;
+use clap::ValueEnum;
+use clap::builder::PossibleValue;
 use serde_json::{Map, Value, json};
 
 use crate::failure::Usage;
@@ -56,12 +58,20 @@ pub(crate) struct Args {
     #[arg(long, value_name = "N", default_value_t = SAMPLES, requires = "instrument")]
     #[arg(value_parser = clap::value_parser!(u32).range(32..=1 << 24))]
     samples: u32,
-    /// Say which classes of standards the material meets, and where it fails the others, instead of the rows
+    /// Say which classes of standards the material meets, and where it fails the others, instead of the
+    /// rows; exit code 1 where a class that --standard asks for is not met
     #[arg(long, conflicts_with = "geometry")]
     verdict: bool,
-    /// Judge by the classes of this colour
-    #[arg(long, value_name = "COLOUR", default_value = "white", conflicts_with = "standard")]
-    colour: String,
+    /// Judge by the classes of this colour [default: white; of --standard, all that it names]
+    #[arg(long, value_name = "COLOUR", requires = "verdict")]
+    colour: Option<String>,
+    /// Judge by the classes of this kind [default: reflector with --area-m2, else sheeting; of --standard,
+    /// the kind that it names]
+    #[arg(long, value_enum, requires = "verdict")]
+    kind: Option<KindArg>,
+    /// Guard band: a limit is met only with so much to spare
+    #[arg(long, value_name = "PERCENT", default_value = "0", requires = "verdict", value_parser = guard)]
+    guard: f64,
     /// File to write, which appears whole or not at all; `-` is standard output
     #[arg(short, long, value_name = "FILE", default_value = "-")]
     output: PathBuf,
@@ -76,12 +86,13 @@ impl Args {
         let output = Output::new(&self.output)?;
         let material = self.subject.load()?;
         let photometer = Photometer::new(&material, self.subject.model(), self.channel, self.area_m2)?;
-        let text = match self.verdict {
+        let (text, missed) = match self.verdict {
             true => self.judge(&photometer)?,
-            false if self.instrument => self.trace(&material)?,
-            false => self.measure(&photometer)?,
+            false if self.instrument => (self.trace(&material)?, None),
+            false => (self.measure(&photometer)?, None),
         };
-        output.write(text.as_bytes())
+        output.write(text.as_bytes())?;
+        missed.map_or(Ok(()), |missed| bail!("{}: {missed}", self.subject.name()))
     }
 
     /// The rows with the column `model`.
@@ -142,43 +153,94 @@ impl Args {
         Ok(Table::parse_geometries(text.as_bytes(), "built-in geometries")?)
     }
 
-    /// A line for each class.
-    fn judge(&self, photometer: &Photometer) -> anyhow::Result<String> {
-        let classes = match &self.standard {
-            Some(name) => table::classes(name)?,
-            None => of_colour(&self.colour)?,
-        };
+    /// A line for each class, and what is said where one that was asked for is not met.
+    fn judge(&self, photometer: &Photometer) -> anyhow::Result<(String, Option<String>)> {
+        let classes = self.classes()?;
         // A material that can't be measured fails no standard.
         let first = classes.first().map(|class| class.rows()[0].geometry());
         first.map(|geometry| photometer.brdf(&geometry)).transpose()?;
-        let all = verdicts(&classes, |quantity, geometry| photometer.measure(quantity, geometry).ok());
+        let measure = |quantity, geometry: &_| photometer.measure(quantity, geometry).ok();
+        let (all, none) = verdicts(&classes, 0.01 * self.guard, measure);
         if all.is_empty() {
             bail!(
                 "none of these has limits that can be judged: R_I needs --area-m2, and typical values are no \
                  limits"
             );
         }
-        if self.json {
-            return report::json(&all.iter().map(verdict_object).collect());
+        let is_asked = self.standard.is_some();
+        let unjudged = none.iter().filter(|_| is_asked);
+        let text = if self.json {
+            let rest = unjudged.clone().map(|(class, reason)| unjudged_object(class, *reason));
+            report::json(&all.iter().map(verdict_object).chain(rest).collect())?
+        } else {
+            let rest = unjudged.clone().map(|(class, reason)| unjudged_line(class, *reason));
+            all.iter().map(Verdict::to_string).chain(rest).map(|line| line + "\n").collect()
+        };
+        let (asked, met) = (all.len() + none.len(), all.iter().filter(|verdict| verdict.is_met()).count());
+        let missed = format!("{} of {asked} classes asked for not met", asked - met);
+        Ok((text, (is_asked && met < asked).then_some(missed)))
+    }
+
+    /// The classes to judge by, of one kind.
+    fn classes(&self) -> anyhow::Result<Vec<StandardClass>> {
+        let mut classes = match (&self.standard, &self.colour) {
+            (Some(name), None) => table::classes(name)?,
+            (Some(name), Some(colour)) => of_colour(table::classes(name)?, colour)?,
+            (None, colour) => {
+                let all = Catalogue::embedded()?.classes().to_vec();
+                of_colour(all, colour.as_deref().unwrap_or("white"))?
+            }
+        };
+        let has = |kind: &Kind| classes.iter().any(|class| Kind::of(class) == *kind);
+        let usual = [Kind::Sheeting, Kind::Marking, Kind::Reflector];
+        let usual = self.area_m2.map(|_| Kind::Reflector).into_iter().chain(usual);
+        let Some(kind) = self.kind.map_or_else(|| usual.clone().find(has), |kind| Some(kind.0).filter(has))
+        else {
+            let names: Vec<&str> = usual.filter(has).map(Kind::name).collect();
+            bail!(Usage(format!("--kind: the classes are of the kind {}", names.join(" and "))));
+        };
+        let before = classes.len();
+        classes.retain(|class| Kind::of(class) == kind);
+        if self.standard.is_some() && classes.len() < before {
+            let others = before - classes.len();
+            report::warn(format!("{others} classes of another kind than {} are left out", kind.name()));
         }
-        Ok(all.iter().map(|verdict| format!("{verdict}\n")).collect())
+        Ok(classes)
     }
 }
 
-/// The embedded classes of a colour, by the last part of their name.
-fn of_colour(colour: &str) -> anyhow::Result<Vec<StandardClass>> {
-    let catalogue = Catalogue::embedded()?;
+/// A kind of classes as an option.
+#[derive(Clone, Copy, Debug)]
+struct KindArg(Kind);
+
+impl ValueEnum for KindArg {
+    fn value_variants<'a>() -> &'a [Self] {
+        &[Self(Kind::Sheeting), Self(Kind::Marking), Self(Kind::Reflector)]
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.0.name()))
+    }
+}
+
+/// A guard band in percent, with or without the sign.
+fn guard(text: &str) -> Result<f64, String> {
+    let number = text.trim_end_matches('%').trim_end().parse::<f64>().ok();
+    number.filter(|guard| (0.0..=100.0).contains(guard)).ok_or_else(|| "must be 0 to 100 %".to_owned())
+}
+
+/// The classes of a colour, by the last part of their name.
+fn of_colour(mut classes: Vec<StandardClass>, colour: &str) -> anyhow::Result<Vec<StandardClass>> {
     let colour_of = |class: &StandardClass| class.id().rsplit(':').next().unwrap_or_default().to_owned();
     let wanted = colour.to_lowercase().replace(' ', "-");
-    let found: Vec<StandardClass> =
-        catalogue.classes().iter().filter(|class| colour_of(class) == wanted).cloned().collect();
-    if found.is_empty() {
-        let mut known: Vec<String> = catalogue.classes().iter().map(colour_of).collect();
+    let mut known: Vec<String> = classes.iter().map(colour_of).collect();
+    classes.retain(|class| colour_of(class) == wanted);
+    if classes.is_empty() {
         known.sort();
         known.dedup();
         bail!(Usage(format!("--colour {colour}: no class has it; known are {}", known.join(", "))));
     }
-    Ok(found)
+    Ok(classes)
 }
 
 /// A row as JSON: its cells by their column, numbers where the column is one of numbers, and what was
@@ -204,20 +266,37 @@ fn verdict_object(verdict: &Verdict<'_>) -> Value {
             json!({
                 "observation_deg": check.row.observation_deg,
                 "entrance_deg": check.row.entrance_deg,
+                "rotation_deg": check.row.rotation_deg,
                 "quantity": check.row.quantity.symbol(),
                 "limit": check.row.limit.name(),
                 "asked": unit.of_si(check.asked),
                 "found": unit.of_si(check.found),
                 "unit": unit.symbol(),
-                "met": check.is_met(),
+                "standing": check.standing(verdict.guard()).name(),
             })
         })
         .collect();
+    let judged: Vec<&str> = verdict.judged().into_iter().map(Quantity::symbol).collect();
     json!({
         "class": verdict.class().id(),
+        "kind": Kind::of(verdict.class()).name(),
         "met": verdict.is_met(),
+        "standing": verdict.standing().name(),
         "margin": verdict.tightest().margin(),
+        "guard": verdict.guard(),
+        "judged": judged,
+        "not_judged": verdict.not_judged(),
         "text": verdict.to_string(),
         "points": points,
     })
+}
+
+/// A class without a verdict that was asked for.
+fn unjudged_object(class: &StandardClass, reason: Unjudged) -> Value {
+    let (kind, text) = (Kind::of(class).name(), unjudged_line(class, reason));
+    json!({ "class": class.id(), "kind": kind, "met": false, "standing": "not judged", "text": text })
+}
+
+fn unjudged_line(class: &StandardClass, reason: Unjudged) -> String {
+    format!("not judged: {}: {reason}", class.title())
 }

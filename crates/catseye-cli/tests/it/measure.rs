@@ -1,5 +1,7 @@
 //! `catseye measure` answers each row with what the library says of the material, in the row's unit.
 
+use std::fs;
+
 use catseye::{Lobe as _, Params, Reciprocal};
 use catseye_photometry::{Geometry, Goniometer, Quantity, RoadMarking};
 
@@ -112,8 +114,105 @@ fn verdicts_say_where_a_class_is_missed_and_by_how_much() {
     let facts: serde_json::Value = serde_json::from_str(&measured("--verdict --json", "")).unwrap();
     assert_eq!(facts.as_array().unwrap().len(), lines.len());
     assert_eq!(facts[0]["text"], lines[0]);
-    let one = measured("--verdict --standard fmvss108:dot-c2:white", "");
-    assert_eq!(one.lines().count(), 1);
+    assert!(facts.as_array().unwrap().iter().all(|one| one["kind"] == "sheeting"), "{text}");
+    assert!(facts[0]["not_judged"].as_array().unwrap().iter().any(|what| what == "colour"));
+}
+
+/// A script asks one question and reads the exit code.
+#[test]
+fn a_verdict_of_a_standard_is_a_gate() {
+    let bench = bench();
+    bench.write("own.csv", "observation_deg,entrance_deg,value,unit,limit\n0.2,5,LIMIT,cd/lx/m2,minimum\n");
+    let found = column(&measured("--geometry -", "observation_deg,entrance_deg\n0.2,5\n"), "model")[0];
+    // Limit over what the material has, option, exit code, and how the line begins.
+    let cases = [
+        (0.5, "", 0, "meets own.csv in R_A, nearest at 0.2 degree"),
+        (1.00005, "", 0, "meets own.csv"),
+        (1.001, "", 1, "fails own.csv at 0.2 degree"),
+        (0.98, "", 0, "meets own.csv"),
+        (0.98, "--guard 3%", 1, "within the guard band of own.csv in R_A, at 0.2 degree"),
+        (0.98, "--guard 3 --json", 1, "[\n"),
+        (0.98, "--guard 2", 0, "meets own.csv"),
+        (1.02, "--guard 3%", 1, "fails own.csv"),
+    ];
+    for (share, options, code, start) in cases {
+        let limit = format!("{:?}", share * found);
+        bench.write(
+            "own.csv",
+            &format!("observation_deg,entrance_deg,value,unit,limit\n0.2,5,{limit},cd/lx/m2,minimum\n"),
+        );
+        let command = format!("measure m.mtlx --verdict --standard own.csv {options}");
+        let outcome = bench.catseye(&command, "");
+        assert_eq!(outcome.code, code, "{share} {options}: {}{}", outcome.stdout, outcome.stderr);
+        assert!(outcome.stdout.starts_with(start), "{share} {options}: {}", outcome.stdout);
+        let said = "catseye: m.mtlx: 1 of 1 classes asked for not met\n";
+        assert_eq!(outcome.stderr, if code == 1 { said } else { "" });
+    }
+    let several = bench.catseye("measure m.mtlx --verdict --standard astm-d4956 --colour white -o v.txt", "");
+    assert_eq!(several.code, 1);
+    assert!(several.stderr.contains("of 3 classes asked for not met"), "{}", several.stderr);
+    assert_eq!(fs::read_to_string(bench.path("v.txt")).unwrap().lines().count(), 3, "written all the same");
+    for options in ["--verdict --guard=-1", "--verdict --guard nan", "--verdict --guard 101%", "--guard 3"] {
+        let refused = bench.catseye(&format!("measure m.mtlx {options}"), "");
+        assert_eq!((refused.code, refused.stdout.as_str()), (2, ""), "{options}");
+    }
+    let survey = bench.catseye("measure m.mtlx --verdict", "");
+    assert_eq!(survey.code, 0, "a list of what is met and what is not asks for nothing");
+}
+
+/// `roughness --ra` makes the tint for a value; whatever the lobe's width, the class of that value is met.
+#[test]
+fn a_tint_that_was_made_for_a_limit_meets_it() {
+    for (half_power, angle) in [("0.1", "0.2"), ("0.2", "0.2"), ("0.4", "0.2"), ("0.5", "0.33"), ("1", "1")] {
+        let bench = Bench::new();
+        let command = format!("roughness --half-power-deg {half_power} --ra 100 --at-deg {angle} --json");
+        let lobe: serde_json::Value = serde_json::from_str(&bench.catseye(&command, "").stdout).unwrap();
+        let (roughness, tint) = (&lobe["roughness"], &lobe["tint"]);
+        let text =
+            document(&roughness.to_string()).replace("0.06, 0.05, 0.02", &format!("{tint}, {tint}, {tint}"));
+        bench.write("m.mtlx", &text);
+        bench.write(
+            "own.csv",
+            &format!("observation_deg,entrance_deg,value,unit,limit\n{angle},0,100,cd/lx/m2,minimum\n"),
+        );
+        let outcome = bench.catseye("measure m.mtlx --verdict --standard own.csv", "");
+        assert_eq!(outcome.code, 0, "{half_power}: {}{}", outcome.stdout, outcome.stderr);
+    }
+}
+
+#[test]
+fn a_material_is_judged_by_classes_of_its_kind() {
+    let bench = bench();
+    let kinds = |options: &str| -> Vec<String> {
+        let outcome = bench.catseye(&format!("measure m.mtlx --verdict --json {options}"), "");
+        let facts: serde_json::Value = serde_json::from_str(&outcome.stdout).unwrap();
+        let mut kinds: Vec<String> =
+            facts.as_array().unwrap().iter().map(|one| one["kind"].as_str().unwrap().to_owned()).collect();
+        kinds.dedup();
+        kinds
+    };
+    for (options, kind) in [
+        ("", "sheeting"),
+        ("--kind marking", "marking"),
+        ("--area-m2 0.002", "reflector"),
+        ("--area-m2 0.002 --kind sheeting", "sheeting"),
+        ("--standard en1436", "marking"),
+        ("--standard fmvss108 --area-m2 0.002", "reflector"),
+        ("--standard astm-d4956 --area-m2 0.002", "sheeting"),
+    ] {
+        assert_eq!(kinds(options), [kind], "{options}");
+    }
+    let mixed = bench.catseye("measure m.mtlx --verdict --standard fmvss108", "");
+    assert!(mixed.stderr.contains("classes of another kind than sheeting are left out"), "{}", mixed.stderr);
+    assert!(!mixed.stdout.contains("reflex"), "{}", mixed.stdout);
+    let whole = bench.catseye("measure m.mtlx --verdict --standard fmvss108:reflex", "");
+    assert!(whole.code == 1 && whole.stderr.contains("R_I needs --area-m2"), "{}", whole.stderr);
+    let wrong = bench.catseye("measure m.mtlx --verdict --standard en1436 --kind sheeting", "");
+    assert!(wrong.code == 2 && wrong.stderr.contains("of the kind marking"), "{}", wrong.stderr);
+    // What was asked for and can't be judged is not met.
+    let product = bench.catseye("measure m.mtlx --verdict --standard 3m", "");
+    assert_eq!(product.code, 1, "{}", product.stdout);
+    assert!(product.stdout.contains("not judged: 3M"), "{}", product.stdout);
 }
 
 #[test]
@@ -154,6 +253,7 @@ fn bad_tables_and_names_are_told_with_place_and_way_out() {
             "names no class of a standard; there are fmvss108:dot-c2:white",
         ),
         ("--standard fmvss109", "", 1, "there are astm-d4956, fdot-994, fmvss108"),
+        ("--verdict --standard astm-d4956:iii --colour pink", "", 2, "known are"),
         ("--verdict --colour pink", "", 2, "--colour pink: no class has it; known are amber, blue"),
         ("--verdict --standard 3m-8830", "", 1, "none of these has limits"),
         ("--area-m2 0", "", 2, "--area-m2 must be above 0"),

@@ -17,7 +17,7 @@ fn retro(roughness: f32) -> Material {
 
 #[test]
 fn single_precision_is_enough_from_a_tenth_of_a_degree_on() {
-    let mut worst: f64 = 0.0;
+    let (mut worst, mut of_standards): (f64, f64) = (0.0, 0.0);
     for roughness in [0.0005_f32, 0.001, 0.003, 0.0057, 0.02, 0.1, 1.0] {
         let specimen = Specimen::new(&retro(roughness), Model::Reciprocal).unwrap();
         let exact = Reciprocal::<f64>::new(&Params::isotropic(f64::from(roughness))).unwrap();
@@ -30,13 +30,18 @@ fn single_precision_is_enough_from_a_tenth_of_a_degree_on() {
                     continue;
                 }
                 let [r, g, _] = specimen.eval(wo, wi).unwrap();
-                worst = worst.max((r / expected - 1.0).abs());
+                let error = (r / expected - 1.0).abs();
+                worst = worst.max(error);
+                let at_a_limit = observation > 0.1 && expected > 1e-4 * 0.5 * exact.eval(wi, wi)[0];
+                of_standards = of_standards.max(if at_a_limit { error } else { 0.0 });
                 assert!((g / r - 0.5).abs() < 1e-6);
             }
         }
     }
-    println!("worst {worst:e}");
+    println!("worst {worst:e}, at the angles of standards {of_standards:e}");
     assert!(worst < 1e-3, "{worst:e}");
+    // `catseye_photometry::verdict::EVALUATION`, which verdicts allow for.
+    assert!(of_standards < 1e-4, "{of_standards:e}");
 }
 
 #[test]
