@@ -33,6 +33,7 @@ mod gauss;
 mod geometry;
 pub mod half_power;
 mod integral;
+pub mod lamp;
 mod lines;
 mod mtlx;
 pub mod openmaterial;

@@ -5,7 +5,8 @@
 //! middle of the headlamps. All angles of retro-reflection are at the sign, and exact: nothing is small here.
 //!
 //! ```
-//! use catseye_photometry::drive::{Lamp, Road, Scene, Sign, Vehicle};
+//! use catseye_photometry::drive::{Road, Scene, Sign, Vehicle};
+//! use catseye_photometry::lamp::Lamp;
 //!
 //! let scene = Scene { vehicle: Vehicle::CAR, road: Road::Straight, sign: Sign::SHOULDER };
 //! let sight = scene.sight(100.0, &Lamp::even(10_000.0), |_| Ok::<_, catseye_photometry::Error>(250.0))?;
@@ -15,7 +16,6 @@
 //! ```
 
 mod error;
-mod lamp;
 mod road;
 mod scene;
 mod sign;
@@ -23,7 +23,6 @@ mod table;
 mod vehicle;
 
 pub use error::DriveError;
-pub use lamp::Lamp;
 pub use road::Road;
 pub use scene::{LampSight, LampView, Scene, Sight, View};
 pub use sign::Sign;

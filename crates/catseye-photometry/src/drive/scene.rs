@@ -2,7 +2,8 @@
 
 use super::error::DriveError;
 use super::sign::Axes;
-use super::{Lamp, Road, Sign, Vector, Vehicle};
+use super::{Road, Sign, Vector, Vehicle};
+use crate::lamp::Lamp;
 use crate::{Geometry, Goniometer, Intrinsic};
 
 /// The greatest distance: far beyond what headlamps light.

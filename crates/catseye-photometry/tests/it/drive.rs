@@ -1,14 +1,15 @@
 //! What the driver sees agrees with an independent computation.
 
-use catseye_photometry::drive::{DriveError, Lamp, Road, Scene, Sign, Vehicle};
+use catseye_photometry::drive::{DriveError, Road, Scene, Sign, Vehicle};
+use catseye_photometry::lamp::Lamp;
 use catseye_photometry::{Error, Geometry};
 
 /// Computed once with numpy 2.4.6 from the definitions of CIE ILV and ASTM E808, by someone else than the author
 /// of the code: x ahead, y left, z up, lamps at y = +-half the spacing, a straight level road, 10 000 cd in every
 /// direction, and sheeting of R_A = 400 exp(-alpha / 0.425) exp(-beta^2 / 2220), in degrees.
 ///
-/// Vehicle, sign, distance, lamp; H, V in degrees and the distance; alpha, beta, nu; epsilon, omega, gamma, beta_1,
-/// beta_2; E in lx, R_A, L in cd/m2.
+/// Vehicle, sign, distance, lamp; H, V in degrees and the distance; alpha, beta, nu; epsilon, omega, gamma, `beta_1`,
+/// `beta_2`; E in lx, `R_A`, L in cd/m2.
 const VECTORS: &str = "\
     car shoulder 50 L 6.91054 2.13768 50.40097 0.768422 7.232087 6.621179 37.5153 -107.2355 35.4651 5.90084 -4.18871 3.9366080 64.06209 253.880654
     car shoulder 50 R 5.64251 2.14288 50.27860 1.009712 6.034486 6.621179 -52.7038 -110.8352 121.7260 -3.18180 -5.13013 3.9557932 36.57149 145.640641

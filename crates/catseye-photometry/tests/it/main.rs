@@ -9,6 +9,7 @@ mod fit;
 mod geometry;
 mod half_power;
 mod integral;
+mod lamp;
 mod openmaterial;
 mod quantity;
 mod sheeting;
