@@ -98,8 +98,8 @@ impl Quantity {
     }
 
     /// The smallest and the largest value, in the SI unit, that a real surface may be thought to have: a
-    /// factor of 100 and more beyond what is sold, so that what lies outside is a unit or a decimal point
-    /// gone wrong.
+    /// factor of 100 and more above what is sold, and below what instruments see, so that what lies outside
+    /// is a unit or a decimal point gone wrong.
     #[must_use]
     pub fn plausible(self, geometry: &Geometry) -> [f64; 2] {
         // Road markings are seen at a glance: entrance angles of 88 degrees and more.
@@ -107,9 +107,10 @@ impl Quantity {
         match self {
             Self::RetroReflectedLuminance if is_road => [1e-4, 20.0],
             Self::RetroReflectionCoefficient if is_road => [1e-6, 20.0],
-            Self::RetroReflectionCoefficient | Self::RetroReflectedLuminance => [0.01, 5e4],
-            Self::RetroReflectedFlux => [0.01, 5e4],
-            Self::LuminousIntensity => [1e-5, 1e3],
+            // Goniophotometers follow the tail of a lobe through six powers of ten.
+            Self::RetroReflectionCoefficient | Self::RetroReflectedLuminance => [1e-6, 5e4],
+            Self::RetroReflectedFlux => [1e-6, 5e4],
+            Self::LuminousIntensity => [1e-9, 1e3],
             Self::FractionalRetroReflectance => [1e-6, 1.0],
             // 1/pi for a perfect white diffuser; fluorescent colours exceed it.
             Self::DaytimeLuminance => [1e-3, 1.0],

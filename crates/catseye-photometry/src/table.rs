@@ -1,34 +1,44 @@
-//! Tables of photometric values: CSV with the columns of data sheets and standards.
+//! Tables of photometric values: the columns of data sheets, standards and measurements.
 //!
 //! | column | meaning |
 //! |---|---|
-//! | `observation_deg` | observation angle alpha, in `[0, 180)`; needed, and above 0 where there is a value |
-//! | `entrance_deg` | entrance angle component `beta_1`, in `(-90, 90)`; `beta_2` is 0; needed |
+//! | `observation_deg` | observation angle alpha, in `[0, 180)`; needed, above 0 where there is a value |
+//! | `entrance_deg` | entrance angle component `beta_1`, in `(-90, 90)`; needed |
+//! | `beta_2_deg` | entrance angle component `beta_2`, in `(-90, 90)`; 0 where missing or empty |
 //! | `rotation_deg` | rotation angle epsilon, in `[-360, 360]`; 0 where missing or empty |
-//! | `value`, `unit` | the value is needed by a fit; the unit is the quantity's, cd/lx/m2 where neither is given |
+//! | `value`, `unit` | the unit is the quantity's where it is empty, cd/lx/m2 where neither is given |
 //! | `quantity` | `R_A`, `R_L`, ...; where missing or empty what the unit is of |
-//! | `limit` | `minimum`, `maximum` or `typical`; where missing or empty what the standard's name says |
+//! | `uncertainty` | one standard deviation, in the value's unit, or `3%` of the value |
+//! | `limit` | `minimum`, `maximum` or `typical`; where empty what the standard's name says |
+//! | `wavelength_nm` | of the light, in `[100, 20000]`; white where missing or empty |
+//! | `source_aperture_deg`, `receiver_aperture_deg` | full angles of the apertures, both or none |
 //! | `standard`, `class`, `colour`, `source` | what the value is of, and who says so |
 //!
-//! Other columns are kept and have no meaning.
+//! Other columns are kept and have no meaning. Separators are commas, semicolons, tabs or bars, decimals have
+//! points or commas; names may be in any case and those of data sheets (`alpha`, `Obs. angle (°)`, `R_A
+//! [cd/lx/m2]`), angles in minutes of arc where the name or the cell says so. [`Table::to_csv`] writes all of
+//! it in one way: the names above, commas, points, degrees.
 
 use std::collections::HashMap;
 use std::fs::File;
 use std::io::Read as _;
 use std::path::Path;
 
-use crate::lines::{LineCounter, line_of_record};
-use crate::record::{Columns, Record};
+use crate::columns::Columns;
+use crate::hints::hints;
+use crate::number::DecimalMarks;
+use crate::record::Record;
+use crate::sheet::{LARGEST, Sheet};
 use crate::standards::plain;
-use crate::{Error, Geometry, Goniometer, Quantity, Unit};
+use crate::{Apertures, Error, Geometry, Goniometer, Quantity, Unit};
 
-/// Bytes of the largest table that is read: photometric tables have hundreds of rows, not millions.
-const LARGEST: usize = 16 << 20;
-/// Relative difference of two values for the same thing from which on they contradict each other.
+/// Relative difference of two values for the same thing from which on they contradict each other, and the
+/// same in standard deviations of the difference, where the table has them.
 const CONTRADICTION: f64 = 0.05;
+const CONTRADICTION_SIGMA: f64 = 4.0;
 
 /// What a table is for.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd)]
 pub(crate) enum Need {
     /// Geometries to measure at. Values are not looked at.
     Geometry,
@@ -67,18 +77,26 @@ pub struct Row {
     pub line: usize,
     /// Observation angle alpha, in degrees.
     pub observation_deg: f64,
-    /// Entrance angle component `beta_1`, in degrees; `beta_2` is 0.
+    /// Entrance angle component `beta_1`, in degrees.
     pub entrance_deg: f64,
+    /// Entrance angle component `beta_2`, in degrees; 0 where none is given.
+    pub entrance_2_deg: f64,
     /// Rotation angle epsilon, in degrees.
     pub rotation_deg: f64,
     /// What the value is a value of.
     pub quantity: Quantity,
     /// The value in the quantity's SI unit. Present where the table was read for its values.
     pub value: Option<f64>,
+    /// One standard deviation of the value in the same unit, at most the value.
+    pub uncertainty: Option<f64>,
     /// The unit that the value is written in.
     pub unit: Unit,
     /// Whether the value is a lower or an upper limit.
     pub limit: Limit,
+    /// The wavelength that was measured at, in nm; `None` for white light.
+    pub wavelength_nm: Option<f64>,
+    /// The apertures that were measured with.
+    pub apertures: Option<Apertures>,
     /// The standard; empty where none is given. The same holds for the texts below.
     pub standard: String,
     /// The class within the standard, or the product.
@@ -87,7 +105,7 @@ pub struct Row {
     pub colour: String,
     /// Who says so.
     pub source: String,
-    /// The row as it was read, one text for each column of [`Table::header`].
+    /// The row's texts, one for each column of [`Table::header`].
     pub cells: Vec<String>,
 }
 
@@ -95,8 +113,12 @@ impl Row {
     /// The directions that the angles mean.
     #[must_use]
     pub fn geometry(&self) -> Geometry {
-        let angles =
-            Goniometer::from_degrees(self.observation_deg, self.entrance_deg, 0.0, self.rotation_deg);
+        let angles = Goniometer::from_degrees(
+            self.observation_deg,
+            self.entrance_deg,
+            self.entrance_2_deg,
+            self.rotation_deg,
+        );
         Geometry::from(angles)
     }
 
@@ -158,7 +180,8 @@ impl Table {
     ///
     /// # Errors
     /// Names line and column of: text that is not UTF-8 or longer than 16 MiB, a missing or doubled column, a
-    /// table without rows, an angle that is no number or out of its range, a receiver below the surface.
+    /// table without rows or with more than 250 000, an angle that is no number or out of its range, a receiver
+    /// below the surface, angles of another goniometer system.
     pub fn parse_geometries(bytes: &[u8], name: &str) -> Result<Self, Error> {
         Self::parse(bytes, name, Need::Geometry)
     }
@@ -171,38 +194,35 @@ impl Table {
     }
 
     fn parse(bytes: &[u8], name: &str, need: Need) -> Result<Self, Error> {
-        let fail = |problem: String| Error::Table { table: name.to_owned(), problem };
-        if bytes.len() > LARGEST {
-            return Err(fail(format!("is larger than {} MiB; is it a table?", LARGEST >> 20)));
+        let Sheet { header, records } = Sheet::read(bytes, name)?;
+        let columns = Columns::new(&header, need)
+            .map_err(|problem| Error::Table { table: name.to_owned(), problem })?;
+        if records.is_empty() {
+            let problem = "has a header, but no rows".to_owned();
+            return Err(Error::Table { table: name.to_owned(), problem });
         }
-        let bytes = bytes.strip_prefix(b"\xef\xbb\xbf").unwrap_or(bytes);
-        let text = str::from_utf8(bytes).map_err(|error| Error::Row {
-            table: name.to_owned(),
-            line: line_of_record(bytes, error.valid_up_to() as u64),
-            problem: "is not UTF-8 text; save the table as CSV in UTF-8".to_owned(),
-        })?;
-        if text.trim().is_empty() {
-            return Err(fail("is empty; a header line and rows are needed".to_owned()));
+        let mut marks = DecimalMarks::default();
+        for (i, _) in columns.iter().filter(|(_, heading)| heading.column.is_number()) {
+            records.iter().for_each(|(_, cells)| marks.see(&cells[i]));
         }
-        let mut reader = csv::ReaderBuilder::new().flexible(true).trim(csv::Trim::All).from_reader(bytes);
-        let broken = |error: csv::Error| fail(format!("can't be read as CSV: {error}"));
-        let header: Vec<String> = reader.headers().map_err(broken)?.iter().map(str::to_owned).collect();
-        let columns = Columns::new(&header, need).map_err(fail)?;
-        let (mut rows, mut lines) = (Vec::new(), LineCounter::new(bytes));
-        for record in reader.records() {
-            let record = record.map_err(broken)?;
-            let line = lines.of_record(record.position().map_or(0, csv::Position::byte));
-            let cells: Vec<String> = record.iter().map(str::to_owned).collect();
-            rows.push(Record { table: name, line, columns: &columns, header: &header }.row(cells, need)?);
-        }
-        if rows.is_empty() {
-            return Err(fail("has a header, but no rows".to_owned()));
-        }
-        let table = Self { name: name.to_owned(), header, rows };
+        let row = |(line, cells): &(usize, Vec<String>)| {
+            let record =
+                Record { table: name, line: *line, columns: &columns, header: &header, marks, cells };
+            record.row(need)
+        };
+        let rows = records.iter().map(row).collect::<Result<Vec<Row>, Error>>()?;
+        let table = Self { name: name.to_owned(), header: columns.canonical(&header), rows };
         if need == Need::Values {
             table.refuse_contradictions()?;
         }
         Ok(table)
+    }
+
+    /// What is legal and still odd: angles that seem to be minutes of arc, or in each other's column, and
+    /// values far below the others. A sentence each, with the way out.
+    #[must_use]
+    pub fn hints(&self) -> Vec<String> {
+        hints(&self.rows)
     }
 
     /// A table of rows that come from somewhere else; `header` names the rows' [`Row::cells`].
@@ -217,7 +237,7 @@ impl Table {
         &self.name
     }
 
-    /// The names of the columns, as they were read.
+    /// The names of the columns: those with a meaning by the names of this module, others as they were read.
     #[must_use]
     pub fn header(&self) -> &[String] {
         &self.header
@@ -249,11 +269,15 @@ impl Table {
     fn refuse_contradictions(&self) -> Result<(), Error> {
         let mut known: HashMap<_, &Row> = HashMap::new();
         for row in &self.rows {
-            let angles = [row.observation_deg, row.entrance_deg, row.rotation_deg].map(f64::to_bits);
+            let wavelength = row.wavelength_nm.unwrap_or_default();
+            let angles =
+                [row.observation_deg, row.entrance_deg, row.entrance_2_deg, row.rotation_deg, wavelength];
+            let angles = angles.map(f64::to_bits);
             let key = (&row.standard, &row.class, &row.colour, row.limit, row.quantity, angles);
             let Some(first) = known.insert(key, row) else { continue };
             let (Some(a), Some(b)) = (first.value, row.value) else { continue };
-            if (a - b).abs() > CONTRADICTION * a.max(b) {
+            let uncertainty = first.uncertainty.unwrap_or(0.0).hypot(row.uncertainty.unwrap_or(0.0));
+            if (a - b).abs() > (CONTRADICTION * a.max(b)).max(CONTRADICTION_SIGMA * uncertainty) {
                 let unit = row.quantity.unit();
                 return Err(Error::Row {
                     table: self.name.clone(),

@@ -14,6 +14,7 @@ mod openmaterial;
 mod quantity;
 mod sheeting;
 mod significant;
+mod sloppy;
 mod standards;
 mod table;
 mod unit;

@@ -82,17 +82,23 @@ fn bad_tables_are_refused_with_their_place() {
         ("H\n0.2,5,inf,cd/lx/m2\n", "t.csv:2: column value: \"inf\" is not a number"),
         ("H\n0.2,5,,cd/lx/m2\n", "t.csv:2: column value: is empty"),
         ("H\n0.2,5,0,cd/lx/m2\n", "t.csv:2: column value: is 0; leave the row out"),
-        ("H\n0.2,5,\"70,5\",cd/lx/m2\n", "t.csv:2: column value: \"70,5\" is not a number"),
+        (
+            "H\n0.2,5,\"7,500\",cd/lx/m2\n",
+            "t.csv:2: column value: \"7,500\" could have a sign between thousands",
+        ),
         ("H\n0.2,,70,cd/lx/m2\n", "t.csv:2: column entrance_deg: is empty"),
         ("H\n0.2,90,70,cd/lx/m2\n", "t.csv:2: column entrance_deg: 90 is outside (-90, 90)"),
         ("H\n-0.2,5,70,cd/lx/m2\n", "t.csv:2: column observation_deg: -0.2 is outside [0, 180)"),
         ("H\n0,5,70,cd/lx/m2\n", "t.csv:2: column observation_deg: is 0, where source and receiver coincide"),
         ("H\n0.2,5,70,cd\n", "t.csv:2: column unit: \"cd\" is not a known unit; known are cd/lx/m2, "),
         ("H\n0.2,5,250000,mcd/lx/m2\n", "t.csv:2: column unit: mcd/lx/m2 is the unit of road markings"),
-        ("H\n0.2,5,250000,cd/lx/m2\n", "is not plausible: 0.01 to 50000 cd/lx/m2 are; is mcd/lx/m2 meant?"),
         (
-            "H\n0.2,5,0.0003,cd/lx/m2\n",
-            "is not plausible: 0.01 to 50000 cd/lx/m2 are; check the value and its unit",
+            "H\n0.2,5,250000,cd/lx/m2\n",
+            "is not plausible: 0.000001 to 50000 cd/lx/m2 are; is mcd/lx/m2 meant?",
+        ),
+        (
+            "H\n0.2,5,3e-7,cd/lx/m2\n",
+            "is not plausible: 0.000001 to 50000 cd/lx/m2 are; check the value and its unit",
         ),
         (
             "H\n1.05,88.76,150,cd/lx/m2 (R_L)\n",
