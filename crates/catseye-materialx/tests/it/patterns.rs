@@ -284,12 +284,13 @@ fn pictures_are_looked_up_in_their_colour_space() {
     assert_near(color_of(&here.bsdf), [1.0, green, 0.0], "flat.png");
 }
 
-/// Retro-reflection and base of `retro_sheeting_surface`.
-fn below_the_coat(bsdf: Closure) -> (Params<f32>, [f32; 3]) {
+/// Retro-reflection of `retro_sheeting_surface`, the direction of its longer axis, and the base.
+fn below_the_coat(bsdf: Closure) -> (Params<f32>, [f32; 3], [f32; 3]) {
     let Closure::Layer { base, .. } = bsdf else { panic!("{bsdf:?}") };
     let Closure::Add { a, b } = *base else { panic!("{base:?}") };
-    let Closure::RetroReflective { params, .. } = *a else { panic!("{a:?}") };
-    (params, color_of(&b))
+    let Closure::Oriented { closure, tangent: Some(axis), .. } = *a else { panic!("{a:?}") };
+    let Closure::RetroReflective { params, .. } = *closure else { panic!("{closure:?}") };
+    (params, axis, color_of(&b))
 }
 
 #[test]
@@ -307,14 +308,57 @@ fn retro_sheeting_surface_needs_no_search_path_and_takes_pictures() {
     std::fs::write(&path, text).unwrap();
     let patterns = Document::load(&path).unwrap().material(None).unwrap().patterns.unwrap();
     let strength = 128.0_f32 / 255.0;
-    for (view, falloff) in [([0.0, 0.0, -1.0], 1.0), ([0.75_f32.sqrt(), 0.0, -0.5], 0.125)] {
+    let roughness = 2.0_f32.to_radians() / (2.0 * 2.0_f32.ln()).sqrt();
+    // At 60 degrees the cosine's third power over the cosine, and twice the width.
+    for (view, falloff, wider) in [([0.0, 0.0, -1.0], 1.0, 1.0), ([0.75_f32.sqrt(), 0.0, -0.5], 0.25, 2.0)] {
         let point = ShadingPoint { view, ..ShadingPoint::default() };
-        let (params, base) = below_the_coat(patterns.at(&point).bsdf);
+        let (params, _, base) = below_the_coat(patterns.at(&point).bsdf);
         let share = [1.0, 0.5, 0.25].map(|color| color * strength * falloff);
         assert_near(params.tint, share, "tint");
         assert_near(params.multiscatter_tint, share, "multiscatter_tint");
         assert_near(base, [1.0 - share[0], strength * (1.0 - share[1]), 0.0], "base");
-        assert!((params.roughness_u - 2.0_f32.to_radians() / (2.0 * 2.0_f32.ln()).sqrt()).abs() < 1e-7);
+        assert!((params.roughness_u / (wider * roughness) - 1.0).abs() < 3e-6, "{params:?}");
+        assert!((params.roughness_v.unwrap() / roughness - 1.0).abs() < 3e-6, "{params:?}");
+    }
+}
+
+/// The exponent of a narrow lobe at a disk offset, but for a factor.
+fn exponent(params: &Params<f32>, axis: [f32; 3], [x, y]: [f32; 2]) -> f32 {
+    let along = (x * axis[0] + y * axis[1]) / params.roughness_u;
+    let across = (y * axis[0] - x * axis[1]) / params.roughness_v.unwrap_or(params.roughness_u);
+    along * along + across * across
+}
+
+#[test]
+fn both_half_power_angles_of_retro_sheeting_surface_hold_at_every_entrance_angle_and_azimuth() {
+    // A tangent neither of unit length nor in the tangent plane.
+    let text = r#"<materialx version="1.39"><constant name="t" type="vector3"><input name="value" type="vector3" value="0, 3, 1" /></constant>
+        <retro_sheeting_surface name="s" type="surfaceshader"><input name="half_power_angle" type="float" value="0.3" />
+        <input name="half_power_angle_across" type="float" value="0.9" /><input name="tangent" type="vector3" nodename="t" /></retro_sheeting_surface>
+        <surfacematerial name="m" type="material"><input name="surfaceshader" type="surfaceshader" nodename="s" /></surfacematerial></materialx>"#;
+    let material = Document::parse(text, "m.mtlx").unwrap().material(None).unwrap();
+    let patterns = material.patterns.unwrap();
+    let [along, across] = [0.3_f32, 0.9].map(|angle| angle * 0.014823438);
+    for entrance in [0.0_f32, 30.0, 60.0, 80.0] {
+        for azimuth in (0..360).step_by(25).map(|degrees| (degrees as f32).to_radians()) {
+            let (sin, cosine) = entrance.to_radians().sin_cos();
+            let (e_y, e_x) = azimuth.sin_cos();
+            let point = ShadingPoint { view: [-sin * e_x, -sin * e_y, -cosine], ..ShadingPoint::default() };
+            let (params, axis, _) = below_the_coat(patterns.at(&point).bsdf);
+            // Light beside the viewer by an angle, in the frame that tipping the normal onto the view makes of
+            // tangent (y) and bitangent (-x). The disk offset is half of it, along the view's projection
+            // half of it over the cosine (theory.md, section 10).
+            for turn in (0..180).step_by(20).map(|degrees| (degrees as f32).to_radians()) {
+                let (x, y) = (-turn.sin(), turn.cos());
+                let stretch = (x * e_x + y * e_y) * (1.0 / cosine - 1.0);
+                let found = exponent(&params, axis, [x + stretch * e_x, y + stretch * e_y]);
+                let expected = (turn.cos() / along).powi(2) + (turn.sin() / across).powi(2);
+                assert!(
+                    (found / expected - 1.0).abs() < 1e-3,
+                    "{entrance} {azimuth} {turn}: {found} {expected}"
+                );
+            }
+        }
     }
 }
 

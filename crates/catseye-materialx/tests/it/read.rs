@@ -50,7 +50,10 @@ fn sheeting() -> Closure {
 fn retro_sheeting() -> Closure {
     let share = [1.0, 0.7, 0.08].map(|color| 0.1 * color);
     let color = [0, 1, 2].map(|i| [0.75, 0.45, 0.03][i] * (1.0 - share[i]));
-    let beads = retro(Params::isotropic(0.4 * 0.014823438).with_tint(share).with_multiscatter_tint(share));
+    let squared = (0.4_f32 * 0.014823438).powi(2);
+    let params = Params::anisotropic(squared.sqrt(), squared / squared.sqrt());
+    let beads = retro(params.with_tint(share).with_multiscatter_tint(share));
+    let beads = turned(beads, [1.0, 0.0, 0.0]);
     let base = Closure::OrenNayarDiffuse { weight: 1.0, color, roughness: 0.0, energy_compensation: false };
     let sheet = Closure::Add { a: Box::new(beads), b: Box::new(base) };
     Closure::Layer { top: Box::new(dielectric(1.49, 0.02)), base: Box::new(sheet) }

@@ -25,6 +25,7 @@ RELATIVE_RMSE = {
     "retro_roughness_050": 1e-3,
     "anisotropic_tape": 5e-4,
     "sheeting": 3e-3,
+    "retro_sheeting": 3e-3,
 }
 # RMSE as above, and the ratios of means and peaks, of the stock nodes to the lobe.
 STOCK = {
@@ -161,6 +162,19 @@ class Pictures(unittest.TestCase):
             relative, _, _ = self.compare(name, self.materialx(document), self.ours(path))
             self.assertLess(relative, bound, name)
 
+    def test_two_half_power_angles(self):
+        """The graph that turns and stretches the ellipse of retro_sheeting_surface, over the whole sphere."""
+        import MaterialX as mx
+        document = read(MATERIALS / "retro_sheeting.mtlx", self.library)
+        [surface] = document.getNodes("retro_sheeting_surface")
+        for name, value in [("half_power_angle", 1.5), ("half_power_angle_across", 4.0), ("entrance_falloff", 1.0),
+                            ("entrance_bend", 35.0), ("entrance_bend_sharpness", 8.0), ("coat", 0.0)]:
+            surface.setInputValue(name, value)
+        path = EVIDENCE / "two_half_power_angles.mtlx"
+        mx.writeToXmlFile(document, str(path))
+        relative, _, _ = self.compare(path.stem, self.materialx(document), self.ours(path))
+        self.assertLess(relative, 1e-3)
+
     def test_the_stock_nodes(self):
         """The graph of the BSDF for targets without an implementation is as far from the lobe as docs/materialx.md says."""
         for name, (rmse, mean, peak) in STOCK.items():
@@ -181,7 +195,7 @@ class Pictures(unittest.TestCase):
         for model, bound in TRANSLATED.items():
             relative, mean, _ = self.compare(f"{model}.day", render(model, 45), day)
             self.assertLess(relative, bound, model)
-            self.assertAlmostEqual(mean, 0.954, delta=0.01, msg=model)
+            self.assertAlmostEqual(mean, 0.963, delta=0.01, msg=model)
         _, _, peak = self.compare("open_pbr_surface.night", render("open_pbr_surface", 0.2), render(None, 0.2))
         self.assertLess(peak, 0.03)
 
