@@ -40,6 +40,7 @@ mod lines;
 mod mtlx;
 mod number;
 pub mod openmaterial;
+pub mod optics;
 mod quantity;
 mod record;
 mod sheet;

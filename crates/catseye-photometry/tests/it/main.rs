@@ -11,6 +11,7 @@ mod half_power;
 mod integral;
 mod lamp;
 mod openmaterial;
+mod optics;
 mod quantity;
 mod sheeting;
 mod significant;
