@@ -4,7 +4,7 @@ use clap::{Command, CommandFactory as _, FromArgMatches as _, Parser, Subcommand
 
 use crate::report;
 use crate::verbs::{
-    albedo, completions, eval, fit, furnace, man, materialx, measure, openmaterial, plot, render, roughness,
+    albedo, completions, eval, export, fit, furnace, man, materialx, measure, plot, render, roughness,
     sample, standards,
 };
 
@@ -34,11 +34,11 @@ enum Verb {
     Albedo(albedo::Args),
     Measure(measure::Args),
     Fit(fit::Args),
+    Export(export::Args),
     Standards(standards::Args),
     Roughness(roughness::Args),
     Plot(plot::Args),
     Materialx(materialx::Args),
-    Openmaterial(openmaterial::Args),
     Completions(completions::Args),
     Man(man::Args),
 }
@@ -62,11 +62,11 @@ impl Cli {
             Verb::Albedo(args) => args.run(),
             Verb::Measure(args) => args.run(),
             Verb::Fit(args) => args.run(),
+            Verb::Export(args) => args.run(),
             Verb::Standards(args) => args.run(),
             Verb::Roughness(args) => args.run(),
             Verb::Plot(args) => args.run(),
             Verb::Materialx(args) => args.run(),
-            Verb::Openmaterial(args) => args.run(),
             Verb::Completions(args) => args.run(command()),
             Verb::Man(args) => args.run(command()),
         }

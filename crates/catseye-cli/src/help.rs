@@ -82,10 +82,15 @@ Table format:
   - Capitals in the header don't matter. An empty cell is a missing one.
   - A bad row is an error that names line and column; nothing is printed then.";
 
-/// Example of `catseye openmaterial`.
-pub(crate) const OPENMATERIAL: &str = "\
+/// Examples of `catseye export`.
+pub(crate) const EXPORT: &str = "\
 Example:
-  $ catseye openmaterial materials/sheeting.mtlx --tint 905=0.3 -o sheeting.xomp";
+  $ catseye export radiance materials/tape_fmvss108_c2_white.mtlx -o tape.rad
+  wrote tape.rad and tape.cal
+  R_A in the lobe, from its peak to a tenth: within 0.01 % at all 20 values
+  $ catseye export csv astm-d4956:iii:white -o iii.csv
+  $ catseye export gltf materials/tape_fmvss108_c2_white.mtlx --entrances -4,5,20 -o tape.gltf
+  $ catseye export openmaterial materials/sheeting.mtlx --tint 905=0.3 -o sheeting.xomp";
 
 /// The format of tables of values, and an example of `catseye measure`.
 pub(crate) fn measure() -> String {

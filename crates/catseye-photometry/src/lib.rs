@@ -29,6 +29,7 @@ mod digits;
 pub mod drive;
 mod entrance;
 mod error;
+pub mod export;
 pub mod fit;
 mod gauss;
 mod geometry;

@@ -20,8 +20,10 @@ pub struct MaterialText<'a> {
     pub doc: &'a str,
     /// Comment at the head of the document.
     pub comment: &'a str,
-    /// Colour of the lobes and of the diffuse base.
+    /// Colour of the lobes.
     pub colour: Colour,
+    /// Colour of the diffuse base.
+    pub base_colour: Colour,
 }
 
 /// How much of the tangent is added to the viewer's projection, which has no direction along the normal.
@@ -58,7 +60,7 @@ pub fn to_mtlx(sheeting: &Sheeting, text: &MaterialText<'_>) -> String {
         parts.push(part);
     }
     if sheeting.diffuse > 0.0 {
-        let color = ("color", "color3", Binding::Value(rgb(text.colour, sheeting.diffuse)));
+        let color = ("color", "color3", Binding::Value(rgb(text.base_colour, sheeting.diffuse)));
         document.node("oren_nayar_diffuse_bsdf", "base", "BSDF", &[color]);
         parts.push("base".to_owned());
     }
@@ -131,7 +133,7 @@ fn sum(document: &mut Document, parts: &[String]) -> String {
 
 /// Where a node's input comes from.
 #[derive(Clone, Debug)]
-enum Binding {
+pub(crate) enum Binding {
     Value(String),
     Node(String),
 }
@@ -151,12 +153,12 @@ fn in2(value: f64) -> Input<'static> {
 }
 
 /// An XML document as it grows. Writing to memory can't fail.
-struct Document {
+pub(crate) struct Document {
     writer: Writer<Cursor<Vec<u8>>>,
 }
 
 impl Document {
-    fn new(comment: &str) -> Self {
+    pub(crate) fn new(comment: &str) -> Self {
         let mut document = Self { writer: Writer::new_with_indent(Cursor::new(Vec::new()), b' ', 2) };
         document.event(Event::Decl(BytesDecl::new("1.0", None, None)));
         // Two hyphens would end the comment.
@@ -166,7 +168,7 @@ impl Document {
         document
     }
 
-    fn finish(mut self) -> String {
+    pub(crate) fn finish(mut self) -> String {
         self.close("materialx");
         let mut text = String::from_utf8_lossy(&self.writer.into_inner().into_inner()).into_owned();
         text.push('\n');
@@ -191,7 +193,7 @@ impl Document {
         self.event(Event::Empty(start));
     }
 
-    fn node(&mut self, category: &str, name: &str, kind: &str, inputs: &[Input<'_>]) {
+    pub(crate) fn node(&mut self, category: &str, name: &str, kind: &str, inputs: &[Input<'_>]) {
         self.open(category, &[("name", name), ("type", kind)]);
         for (input, kind, feed) in inputs {
             let (key, value) = match feed {
@@ -324,7 +326,7 @@ fn number(x: f64) -> String {
 }
 
 /// A MaterialX name: letters, digits and `_`, not beginning with a digit.
-fn identifier(name: &str) -> String {
+pub(crate) fn identifier(name: &str) -> String {
     let mut text = String::new();
     for character in name.chars() {
         let good = if character.is_ascii_alphanumeric() { character.to_ascii_lowercase() } else { '_' };

@@ -152,7 +152,7 @@ impl UnitLobe {
 }
 
 /// Both directions in the frame whose x axis is the projection of `wo`.
-fn along_projection(wo: Vec3<f64>, wi: Vec3<f64>) -> [Vec3<f64>; 2] {
+pub(crate) fn along_projection(wo: Vec3<f64>, wi: Vec3<f64>) -> [Vec3<f64>; 2] {
     let length = wo.x.hypot(wo.y);
     if length < NO_AZIMUTH {
         return [wo, wi];

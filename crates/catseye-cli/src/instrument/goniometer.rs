@@ -39,7 +39,12 @@ impl Photometer {
 
     /// The BSDF in 1/sr.
     pub(crate) fn brdf(&self, geometry: &Geometry) -> anyhow::Result<f64> {
-        Ok(self.channel.of(self.specimen.eval(geometry.wo, geometry.wi)?))
+        Ok(self.channel.of(self.rgb(geometry)?))
+    }
+
+    /// The BSDF in 1/sr per channel of linear Rec. 709.
+    pub(crate) fn rgb(&self, geometry: &Geometry) -> anyhow::Result<[f64; 3]> {
+        Ok(self.specimen.eval(geometry.wo, geometry.wi)?)
     }
 
     /// The quantity in its SI unit.
@@ -65,7 +70,7 @@ impl Photometer {
 }
 
 /// Whether some other places, each seen head on, are unlike the origin.
-fn varies_over_the_surface(material: &Material) -> bool {
+pub(crate) fn varies_over_the_surface(material: &Material) -> bool {
     /// Places that are looked at; their coordinates are multiples of the golden and the silver ratio.
     const PLACES: u16 = 64;
     let Some(patterns) = &material.patterns else { return false };

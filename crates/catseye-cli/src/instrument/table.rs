@@ -10,6 +10,22 @@ use catseye_photometry::{Error, Row, Table};
 /// Bytes after which a table on standard input is too large for the library, which says so.
 const LARGEST: u64 = 1 << 25;
 
+/// The angles that materials are measured at where none are given, in degrees: those of the standards for
+/// sheeting.
+pub(crate) const OBSERVATIONS_DEG: [f64; 7] = [0.1, 0.2, 0.33, 0.5, 1.0, 1.5, 2.0];
+pub(crate) const ENTRANCES_DEG: [f64; 5] = [-4.0, 5.0, 20.0, 30.0, 40.0];
+
+/// Every pair of an observation and an entrance angle, in degrees, as geometries of `R_A`.
+pub(crate) fn grid(observations_deg: &[f64], entrances_deg: &[f64]) -> anyhow::Result<Table> {
+    let mut text = String::from("observation_deg,entrance_deg,quantity,unit\n");
+    for observation in observations_deg {
+        for entrance in entrances_deg {
+            text += &format!("{observation},{entrance},R_A,cd/lx/m2\n");
+        }
+    }
+    Ok(Table::parse_geometries(text.as_bytes(), "grid of angles")?)
+}
+
 /// Reads values from a CSV file, or from standard input where it is `-`.
 pub(crate) fn read(path: &Path) -> anyhow::Result<Table> {
     if path != Path::new("-") {

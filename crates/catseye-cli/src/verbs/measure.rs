@@ -15,15 +15,12 @@ use serde_json::{Map, Value, json};
 use crate::failure::Usage;
 use crate::instrument::goniometer::Photometer;
 use crate::instrument::retroreflectometer::{Retroreflectometer, SAMPLES};
+use crate::instrument::table::{ENTRANCES_DEG, OBSERVATIONS_DEG};
 use crate::instrument::{Channel, check_area, table};
 use crate::options::MaterialArgs;
 use crate::output::Output;
 use crate::progress::Progress;
 use crate::{help, report};
-
-/// The geometries that are measured where none are given: those of the standards for sheeting.
-const OBSERVATIONS_DEG: [&str; 7] = ["0.1", "0.2", "0.33", "0.5", "1", "1.5", "2"];
-const ENTRANCES_DEG: [&str; 5] = ["-4", "5", "20", "30", "40"];
 
 /// Measure a material as a retroreflectometer would
 ///
@@ -144,13 +141,7 @@ impl Args {
         if let Some(name) = &self.standard {
             return Ok(table::joined(name, &table::classes(name)?));
         }
-        let mut text = String::from("observation_deg,entrance_deg,quantity,unit\n");
-        for observation in OBSERVATIONS_DEG {
-            for entrance in ENTRANCES_DEG {
-                text += &format!("{observation},{entrance},R_A,cd/lx/m2\n");
-            }
-        }
-        Ok(Table::parse_geometries(text.as_bytes(), "built-in geometries")?)
+        table::grid(&OBSERVATIONS_DEG, &ENTRANCES_DEG)
     }
 
     /// A line for each class, and what is said where one that was asked for is not met.

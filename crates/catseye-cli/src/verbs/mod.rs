@@ -3,12 +3,12 @@
 pub(crate) mod albedo;
 pub(crate) mod completions;
 pub(crate) mod eval;
+pub(crate) mod export;
 pub(crate) mod fit;
 pub(crate) mod furnace;
 pub(crate) mod man;
 pub(crate) mod materialx;
 pub(crate) mod measure;
-pub(crate) mod openmaterial;
 pub(crate) mod plot;
 pub(crate) mod render;
 pub(crate) mod roughness;

@@ -72,7 +72,7 @@ fn a_texture_under_a_photometer() {
     bench.write("m.mtlx", document);
     let expected = "catseye: warning: the material \"m\" varies over the surface: it is measured at the texture \
                     coordinates 0, 0\n";
-    for args in ["measure m.mtlx", "plot ra m.mtlx", "openmaterial m.mtlx -o m.xomp"] {
+    for args in ["measure m.mtlx", "plot ra m.mtlx", "export openmaterial m.mtlx -o m.xomp"] {
         let outcome = bench.catseye(args, "");
         assert_eq!((outcome.code, outcome.stderr.as_str()), (0, expected), "{args}");
         assert_eq!(bench.catseye(&format!("{args} --quiet"), "").stderr, "", "{args}");

@@ -3,6 +3,7 @@
 
 mod bad_input;
 mod csv_contract;
+mod export;
 mod fit;
 mod furnace_table;
 mod half_power;
@@ -19,6 +20,8 @@ mod messages;
 mod openmaterial;
 mod pictures;
 mod plots;
+mod python;
+mod radiance;
 mod readme;
 mod render_files;
 mod run;

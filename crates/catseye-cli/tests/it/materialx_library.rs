@@ -1,49 +1,16 @@
 //! The data library loads, generates, compiles, evaluates and renders in MaterialX itself, as our own code
 //! does.
 //!
-//! Runs the Python tests of `crates/catseye-materialx/tests/materialx`. They get a virtual environment under
-//! the target folder, made at the first run. Where Python, the packages or a display can't be had they are
-//! skipped, and say so; with `CATSEYE_REQUIRE=all` that is a failure.
+//! Runs the Python tests of `crates/catseye-materialx/tests/materialx`. Where a display can't be had, those that
+//! need one are skipped, and say so; with `CATSEYE_REQUIRE=all` that is a failure.
 
-use std::io::Write as _;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 use std::process::Command;
 
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..").canonicalize().unwrap()
-}
+use crate::python::{self, root, skipped, succeeds, target};
 
 fn tests() -> PathBuf {
     root().join("crates/catseye-materialx/tests/materialx")
-}
-
-/// The folder that holds the binary under test, `target/debug` usually.
-fn target() -> PathBuf {
-    Path::new(env!("CARGO_BIN_EXE_catseye")).parent().unwrap().to_path_buf()
-}
-
-fn succeeds(command: &mut Command) -> bool {
-    command.output().is_ok_and(|output| output.status.success())
-}
-
-/// The Python of the virtual environment, made where it is missing or its packages have changed.
-fn python() -> Option<PathBuf> {
-    let requirements = tests().join("requirements.txt");
-    let wanted = std::fs::read_to_string(&requirements).unwrap();
-    let folder = target().join("materialx-venv");
-    let (python, stamp) = (folder.join("bin/python"), folder.join("requirements.txt"));
-    // The tests run at once, in processes of their own: the first one makes it, the others wait.
-    let lock = std::fs::File::create(target().join("materialx-venv.lock")).unwrap();
-    lock.lock().unwrap();
-    if std::fs::read_to_string(&stamp).is_ok_and(|installed| installed == wanted) {
-        return Some(python);
-    }
-    let made = succeeds(Command::new("python3").args(["-m", "venv", "--clear"]).arg(&folder))
-        && succeeds(Command::new(&python).args(["-m", "pip", "install", "-q", "-r"]).arg(&requirements));
-    made.then(|| {
-        std::fs::write(stamp, wanted).unwrap();
-        python
-    })
 }
 
 /// An example that some of the tests run: it renders our half of pictures, or evaluates nodes.
@@ -56,19 +23,8 @@ fn example(package: &str, name: &str) -> Option<PathBuf> {
     built.then(|| folder.join("release/examples").join(name))
 }
 
-/// Says so past the test harness, which would keep the output of a test that passes to itself.
-#[expect(clippy::explicit_write, reason = "eprintln! is what the harness keeps")]
-fn skipped(what: &str) {
-    writeln!(std::io::stderr(), "skipped: {what}").unwrap();
-}
-
 fn run(file: &str) {
-    let required = std::env::var("CATSEYE_REQUIRE").is_ok_and(|value| value == "all");
-    let Some(python) = python() else {
-        assert!(!required, "no virtual environment with MaterialX could be made");
-        skipped(&format!("{file}: no virtual environment with MaterialX could be made"));
-        return;
-    };
+    let Some(python) = python::required(&tests(), "materialx", file) else { return };
     let pictures = file == "test_pictures.py";
     let has_xvfb = succeeds(Command::new("sh").args(["-c", "command -v xvfb-run"]));
     let mut command = if pictures && has_xvfb {
@@ -91,11 +47,7 @@ fn run(file: &str) {
     if let Some((name, Some(path))) = needed {
         command.env(name, path);
     }
-    let output = command.output().unwrap();
-    let text = String::from_utf8_lossy(&output.stderr);
-    eprintln!("{text}");
-    text.lines().filter(|line| line.contains("skipped '")).for_each(skipped);
-    assert!(output.status.success(), "{file}");
+    python::passes(&mut command, file);
 }
 
 #[test]
@@ -134,6 +86,11 @@ fn values_match_the_oracle() {
 }
 
 #[test]
+fn what_is_exported_to_engines_is_as_stated() {
+    run("test_export.py");
+}
+
+#[test]
 fn the_environment_is_integrated() {
     run("test_environment.py");
 }
@@ -145,7 +102,7 @@ fn pictures_match_ours() {
 
 #[test]
 fn what_is_missing_fails_where_everything_is_required() {
-    let Some(python) = python() else {
+    let Some(python) = python::interpreter(&tests(), "materialx") else {
         return skipped("no virtual environment with MaterialX could be made");
     };
     let files = [
@@ -155,6 +112,8 @@ fn what_is_missing_fails_where_everything_is_required() {
         ("test_nodes.py", "Nodes"),
         ("test_values.py", "Values"),
         ("test_environment.py", "Environment"),
+        ("test_export.py", "Gltf"),
+        ("test_export.py", "Three"),
         ("test_pictures.py", "Pictures"),
     ];
     for (file, case) in files {

@@ -159,11 +159,11 @@ fn standard_output_is_named_where_it_is_full() {
 #[test]
 fn words_fit_what_they_are_about() {
     let bench = bench();
-    let outcome = bench.catseye("openmaterial materials/sheeting.mtlx -o o.xomp", "");
-    assert!(outcome.stdout.ends_with("wrote o_brdf.xompt: 1 wavelength\n"), "{}", outcome.stdout);
+    let outcome = bench.catseye("export openmaterial materials/sheeting.mtlx -o o.xomp", "");
+    assert!(outcome.stdout.ends_with("; the BRDF at 1 wavelength\n"), "{}", outcome.stdout);
     for tint in ["nan=0.2", "905=nan", "905=2", "0=1"] {
-        let outcome =
-            bench.catseye(&format!("openmaterial materials/sheeting.mtlx -o o.xomp --tint {tint}"), "");
+        let outcome = bench
+            .catseye(&format!("export openmaterial materials/sheeting.mtlx -o o.xomp --tint {tint}"), "");
         assert!(outcome.code == 2 && outcome.stderr.contains("--tint"), "{tint}: {}", outcome.stderr);
     }
     let looks = "materials/sheeting.mtlx: no look \"nope\"; it has no looks";

@@ -1,4 +1,4 @@
-//! `catseye openmaterial` writes files that `fit` reads back as the same material.
+//! `catseye export openmaterial` writes files that `fit` reads back as the same material.
 
 use crate::run::column;
 use crate::sheeting::{bench, measured};
@@ -6,7 +6,7 @@ use crate::sheeting::{bench, measured};
 #[test]
 fn open_material_files_are_written_and_read_back() {
     let bench = bench();
-    let args = "openmaterial m.mtlx -o out.xomp --tint 905=0.3 --tint 1550=0.1";
+    let args = "export openmaterial m.mtlx -o out.xomp --tint 905=0.3 --tint 1550=0.1";
     let outcome = bench.catseye(args, "");
     assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""));
     assert_eq!(bench.files(), ["m.mtlx", "out.xomp", "out_brdf.xompt"]);
@@ -41,7 +41,7 @@ fn bad_wishes_for_open_material_leave_no_file() {
         ("-o out.xomp --entrance-deg 95", "above the surface"),
     ] {
         let bench = bench();
-        let outcome = bench.catseye(&format!("openmaterial m.mtlx {args}"), "");
+        let outcome = bench.catseye(&format!("export openmaterial m.mtlx {args}"), "");
         assert!(outcome.code > 0 && outcome.stderr.contains(problem), "{args}: {}", outcome.stderr);
         assert_eq!(bench.files(), ["m.mtlx"], "{args}");
     }

@@ -67,3 +67,14 @@ fn the_guide_to_photometry() {
     let left = ["materials", "night.png", "sheet.csv", "sign.html", "sign.mtlx", "sign.png", "sign_ra.png"];
     assert_eq!(run("docs/photometry.md", FITTED), left);
 }
+
+/// What every target prints, and its files.
+#[test]
+fn the_guide_to_export() {
+    let left = run("docs/export.md", FITTED);
+    assert!(
+        ["vest.rad", "vest.cal", "vest.gltf", "vest.xomp"]
+            .iter()
+            .all(|file| left.contains(&(*file).to_owned()))
+    );
+}

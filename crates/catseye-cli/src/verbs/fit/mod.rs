@@ -2,7 +2,7 @@
 
 mod outcome;
 mod page;
-mod subject;
+pub(crate) mod subject;
 
 use std::path::{Path, PathBuf};
 
@@ -11,7 +11,7 @@ use catseye::Model;
 use catseye_photometry::brdf::Cosine;
 use catseye_photometry::fit::{EntranceKind, Fit, FitError, FitOptions, Observation, fit};
 use catseye_photometry::half_power::roughness_from_half_power_angle;
-use catseye_photometry::{Apertures, Colour, MaterialText, Quantity, to_mtlx};
+use catseye_photometry::{Apertures, Colour, MaterialText, to_mtlx};
 use clap::ValueEnum;
 
 use self::outcome::Outcome;
@@ -229,21 +229,7 @@ impl Args {
     /// The subject's rows as a fit sees them, and one more where a luminance factor was given as an option.
     fn observations(&self, subject: &mut Subject) -> anyhow::Result<Vec<Observation>> {
         if let Some(value) = self.luminance_factor {
-            if !(value > 0.0 && value <= 2.0) {
-                bail!(Usage(format!("--luminance-factor is {value}: it must be in (0, 2]")));
-            }
-            let row = subject.rows.first().cloned();
-            subject.rows.extend(row.map(|row| catseye_photometry::Row {
-                observation_deg: 45.0,
-                entrance_deg: 45.0,
-                rotation_deg: 0.0,
-                quantity: Quantity::LuminanceFactor,
-                unit: Quantity::LuminanceFactor.unit(),
-                value: Some(value),
-                limit: catseye_photometry::Limit::Typical,
-                source: String::new(),
-                ..row
-            }));
+            subject.add_luminance_factor(value)?;
         }
         let apertures = Apertures::both_deg(self.aperture_deg);
         // A BRDF's samples are many, and its lobes wide beside any sensible aperture.
@@ -263,7 +249,8 @@ impl Args {
         let source =
             if sources.is_empty() { String::new() } else { format!(" Source of the values: {sources}") };
         let comment = format!("Written by catseye fit.{source}");
-        to_mtlx(&outcome.fit.sheeting, &MaterialText { name: &name, doc: &doc, comment: &comment, colour })
+        let text = MaterialText { name: &name, doc: &doc, comment: &comment, colour, base_colour: colour };
+        to_mtlx(&outcome.fit.sheeting, &text)
     }
 }
 

@@ -9,6 +9,7 @@ use catseye_photometry::openmaterial::{Assumption, OpenMaterial};
 use catseye_photometry::standards::StandardClass;
 use catseye_photometry::{ApertureRule, Colour, Limit, Quantity, Row, Table};
 
+use crate::failure::Usage;
 use crate::instrument::table;
 
 /// Samples of a measured BRDF that a fit looks at: more of them make it slower and no better.
@@ -166,6 +167,26 @@ impl Subject {
             return observations.context("these are coefficients of luminous intensity: --area-m2 is needed");
         }
         observations
+    }
+
+    /// Adds the luminance factor Y by day, at 45/0, of the option `--luminance-factor`.
+    pub(crate) fn add_luminance_factor(&mut self, value: f64) -> anyhow::Result<()> {
+        if !(value > 0.0 && value <= 2.0) {
+            bail!(Usage(format!("--luminance-factor is {value}: it must be in (0, 2]")));
+        }
+        let row = self.rows.first().cloned();
+        self.rows.extend(row.map(|row| Row {
+            observation_deg: 45.0,
+            entrance_deg: 45.0,
+            rotation_deg: 0.0,
+            quantity: Quantity::LuminanceFactor,
+            unit: Quantity::LuminanceFactor.unit(),
+            value: Some(value),
+            limit: Limit::Typical,
+            source: String::new(),
+            ..row
+        }));
+        Ok(())
     }
 
     /// Whether a row is the luminance of the material by day.

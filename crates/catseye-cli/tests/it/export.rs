@@ -1,0 +1,149 @@
+//! `catseye export` writes what other programs read, says how far it is off, and refuses what they can't have.
+
+use crate::run::{Bench, column};
+
+/// A material of the nodes below, whose output is `out`.
+fn material(nodes: &str, surface: &str) -> String {
+    format!(
+        r#"<materialx version="1.39" colorspace="lin_rec709">
+          <retro_reflective_bsdf name="beads" type="BSDF">
+            <input name="roughness_u" type="float" value="0.006" />
+            <input name="tint" type="color3" value="0.06, 0.05, 0.02" />
+          </retro_reflective_bsdf>
+          {nodes}
+          <surface name="skin" type="surfaceshader">
+            <input name="bsdf" type="BSDF" nodename="out" />
+            {surface}
+          </surface>
+          <surfacematerial name="m" type="material">
+            <input name="surfaceshader" type="surfaceshader" nodename="skin" />
+          </surfacematerial>
+        </materialx>"#
+    )
+}
+
+/// The sum of the beads and another BSDF.
+fn beside(node: &str) -> String {
+    format!(
+        r#"{node}
+        <add name="out" type="BSDF">
+          <input name="in1" type="BSDF" nodename="beads" /><input name="in2" type="BSDF" nodename="other" />
+        </add>"#
+    )
+}
+
+#[test]
+fn a_table_of_a_material_is_fitted_as_that_material() {
+    let bench = Bench::with_materials();
+    let name = "materials/tape_fmvss108_c2_white.mtlx";
+    let outcome = bench.catseye(&format!("export csv {name} -o t.csv"), "");
+    assert_eq!((outcome.code, outcome.stderr.as_str()), (0, ""));
+    let written = std::fs::read_to_string(bench.path("t.csv")).unwrap();
+    let measured = column(&bench.catseye(&format!("measure {name}"), "").stdout, "model");
+    assert_eq!(column(&written, "value"), measured, "the same angles and values as measure's");
+    let angles = "--observations 0.2,1 --entrances -4,10,60";
+    let chosen = bench.catseye(&format!("export csv {name} {angles} -o -"), "").stdout;
+    assert_eq!(column(&chosen, "entrance_deg"), [-4.0, 10.0, 60.0, -4.0, 10.0, 60.0]);
+    bench.write("few.csv", &chosen);
+    let again = bench.catseye("export csv few.csv --observations 0.2,1 --entrances -4,10,60 -o - --json", "");
+    let facts: serde_json::Value = serde_json::from_str(&again.stderr).unwrap();
+    let worst = facts["deviations"][0]["worst"].as_f64().unwrap();
+    assert_eq!(facts["deviations"][0]["against"], "table");
+    let errors =
+        column(&again.stdout, "value").into_iter().zip(column(&chosen, "value")).map(|(a, b)| a / b - 1.0);
+    let greatest =
+        errors.fold(0.0, |worst: f64, error| if error.abs() > worst.abs() { error } else { worst });
+    assert!((worst - greatest).abs() < 1e-9 && worst.abs() < 0.05, "{worst} {greatest}");
+}
+
+#[test]
+fn a_wide_lobe_is_shown_whole() {
+    let bench = Bench::with_materials();
+    let wide = bench.catseye("export csv materials/retro_roughness_015.mtlx -o -", "").stdout;
+    let (angles, values) = (column(&wide, "observation_deg"), column(&wide, "value"));
+    assert!(angles[0] > 1.0 && values[values.len() - 5] < 0.05 * values[0], "{wide}");
+}
+
+#[test]
+fn parts_that_radiance_has_no_room_for_are_named() {
+    let bench = Bench::with_materials();
+    let input = |name: &str, kind: &str, value: &str| {
+        format!(r#"<input name="{name}" type="{kind}" value="{value}" />"#)
+    };
+    let out = |extra: &str| {
+        format!(
+            r#"<retro_reflective_bsdf name="out" type="BSDF">{}{extra}</retro_reflective_bsdf>"#,
+            input("roughness_u", "float", "0.006")
+        )
+    };
+    let coat = r#"<dielectric_bsdf name="coat" type="BSDF" />
+        <layer name="out" type="BSDF">
+          <input name="top" type="BSDF" nodename="coat" /><input name="base" type="BSDF" nodename="beads" />
+        </layer>"#;
+    let varying = format!(
+        r#"<facingratio name="f" type="float" />
+        <smoothstep name="v" type="float"><input name="in" type="float" nodename="f" /></smoothstep>{}"#,
+        out(r#"<input name="weight" type="float" nodename="v" />"#)
+    );
+    let rough = r#"<oren_nayar_diffuse_bsdf name="other" type="BSDF">
+        <input name="roughness" type="float" value="0.3" /></oren_nayar_diffuse_bsdf>"#;
+    let checks = r#"<checkerboard name="v" type="color3" />
+        <retro_reflective_bsdf name="out" type="BSDF"><input name="roughness_u" type="float" value="0.006" />
+        <input name="tint" type="color3" nodename="v" /></retro_reflective_bsdf>"#;
+    for (nodes, surface, part) in [
+        (coat.to_owned(), String::new(), "has a coat"),
+        (beside(r#"<conductor_bsdf name="other" type="BSDF" />"#), String::new(), "has a conductor_bsdf"),
+        (beside(r#"<sheen_bsdf name="other" type="BSDF" />"#), String::new(), "has a sheen_bsdf"),
+        (beside(rough), String::new(), "its diffuse base is rough"),
+        (out(""), input("opacity", "float", "0.5"), "has an opacity below 1"),
+        (out(&input("roughness_v", "float", "0.01")), String::new(), "has two roughnesses"),
+        (out(&input("multiscatter_tint", "color3", "1, 1, 1")), String::new(), "multiscatter_tint"),
+        (varying, String::new(), "depends on the viewer's direction"),
+        (checks.to_owned(), String::new(), "varies over the surface"),
+    ] {
+        bench.write("m.mtlx", &material(&nodes, &surface));
+        let outcome = bench.catseye("export radiance m.mtlx -o m.rad", "");
+        assert_eq!((outcome.code, outcome.stderr.lines().count()), (1, 1), "{part}: {}", outcome.stderr);
+        assert!(outcome.stderr.starts_with("catseye: m.mtlx: "), "{part}: {}", outcome.stderr);
+        assert!(
+            outcome.stderr.contains(part) && outcome.stderr.contains("export"),
+            "{part}: {}",
+            outcome.stderr
+        );
+        assert_eq!(bench.files(), ["m.mtlx", "materials"], "{part}");
+    }
+}
+
+#[test]
+fn wrong_wishes_are_refused_in_a_line() {
+    let bench = Bench::with_materials();
+    for (args, code, problem) in [
+        (
+            "radiance materials/matte_white.mtlx -o m.rad",
+            1,
+            "no retro-reflective lobe; there is nothing to export",
+        ),
+        ("radiance materials/sheeting.mtlx -o m.cal", 2, "m.cal: the name must end in .rad"),
+        ("radiance materials/sheeting.mtlx -o -", 2, "the name must end in .rad"),
+        ("csv materials/sheeting.mtlx -o m.txt", 2, "the name must end in .csv"),
+        (
+            "openmaterial materials/sheeting.mtlx -o m.xomp --entrances 5",
+            2,
+            "no options of the target openmaterial",
+        ),
+        ("csv materials/sheeting.mtlx -o m.csv --tint 905=0.3", 2, "options of the target openmaterial only"),
+        ("csv materials/sheeting.mtlx -o m.csv --entrances 95", 1, "entrance_deg"),
+        ("csv nothing.mtlx -o m.csv", 1, "nothing.mtlx"),
+        ("csv astm-d4956:iii -o m.csv", 1, "say which one"),
+    ] {
+        let outcome = bench.catseye(&format!("export {args}"), "");
+        assert_eq!(outcome.code, code, "{args}: {}", outcome.stderr);
+        assert!(outcome.stderr.contains(problem), "{args}: {}", outcome.stderr);
+        assert_eq!(bench.files(), ["materials"], "{args}");
+    }
+    let unknown = bench.catseye("export unity materials/sheeting.mtlx -o m.mat", "");
+    assert_eq!(unknown.code, 2);
+    for target in ["csv", "radiance", "openmaterial"] {
+        assert!(unknown.stderr.contains(target), "{}", unknown.stderr);
+    }
+}
