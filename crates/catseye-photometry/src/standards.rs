@@ -2,8 +2,9 @@
 
 use crate::{Error, Row, Table};
 
-/// Where the values and their sources are: `data/README.md` says what is in it.
-const EMBEDDED: &str = include_str!("../data/standards.csv");
+/// Where the values and their sources are: `data/README.md` says what is in them.
+const STANDARDS: &str = include_str!("../data/standards.csv");
+const PRODUCTS: &str = include_str!("../data/products.csv");
 /// Names that an error lists at most.
 const LISTED: usize = 12;
 
@@ -12,6 +13,7 @@ const LISTED: usize = 12;
 pub struct StandardClass {
     id: String,
     table: Table,
+    is_product: bool,
 }
 
 /// All classes.
@@ -24,13 +26,19 @@ impl StandardClass {
     /// A table of one's own as a class, whose id is the table's name; `None` for a table without rows.
     #[must_use]
     pub fn from_table(table: Table) -> Option<Self> {
-        (!table.rows().is_empty()).then(|| Self { id: table.name().to_owned(), table })
+        (!table.rows().is_empty()).then(|| Self { id: table.name().to_owned(), table, is_product: false })
     }
 
     /// The name, `standard:class:colour`: unique, in lower case, such as `fmvss108:dot-c2:white`.
     #[must_use]
     pub fn id(&self) -> &str {
         &self.id
+    }
+
+    /// Whether the values are a product's, which are no class that others are asked to meet.
+    #[must_use]
+    pub fn is_product(&self) -> bool {
+        self.is_product
     }
 
     /// The values, in the order of the standard; at least one. Its name is the id.
@@ -69,26 +77,17 @@ impl StandardClass {
 }
 
 impl Catalogue {
-    /// The classes that come with this crate.
+    /// The classes and products that come with this crate.
     ///
     /// # Errors
-    /// None: a test reads the table. It is checked like everyone's.
+    /// None: a test reads the tables. They are checked like everyone's.
     pub fn embedded() -> Result<Self, Error> {
-        let table = Table::parse_values(EMBEDDED.as_bytes(), "standards.csv")?;
-        let mut ids: Vec<&str> = Vec::new();
-        for row in table.rows() {
-            if !ids.contains(&id_of(row)) {
-                ids.push(id_of(row));
-            }
-        }
-        let class = |id: &str| {
-            let rows = table.rows().iter().filter(|row| id_of(row) == id).cloned().collect();
-            StandardClass { id: id.to_owned(), table: Table::from_rows(id, table.header(), rows) }
-        };
-        Ok(Self { classes: ids.into_iter().map(class).collect() })
+        let mut classes = classes_of(STANDARDS, "standards.csv", false)?;
+        classes.extend(classes_of(PRODUCTS, "products.csv", true)?);
+        Ok(Self { classes })
     }
 
-    /// Every class, those of a standard together.
+    /// Every class, those of a standard together; then the products.
     #[must_use]
     pub fn classes(&self) -> &[StandardClass] {
         &self.classes
@@ -140,6 +139,22 @@ impl Catalogue {
         let of_colour = narrowed(&found, third, 2);
         if of_colour.is_empty() { Err(unknown(&found)) } else { Ok(of_colour) }
     }
+}
+
+/// The classes of an embedded table.
+fn classes_of(text: &str, name: &str, is_product: bool) -> Result<Vec<StandardClass>, Error> {
+    let table = Table::parse_values(text.as_bytes(), name)?;
+    let mut ids: Vec<&str> = Vec::new();
+    for row in table.rows() {
+        if !ids.contains(&id_of(row)) {
+            ids.push(id_of(row));
+        }
+    }
+    let class = |id: &str| {
+        let rows = table.rows().iter().filter(|row| id_of(row) == id).cloned().collect();
+        StandardClass { id: id.to_owned(), table: Table::from_rows(id, table.header(), rows), is_product }
+    };
+    Ok(ids.into_iter().map(class).collect())
 }
 
 /// The classes whose part `i` is `text`, else begins with it, else contains it.

@@ -178,7 +178,8 @@ impl Args {
             (Some(name), None) => table::classes(name)?,
             (Some(name), Some(colour)) => of_colour(table::classes(name)?, colour)?,
             (None, colour) => {
-                let all = Catalogue::embedded()?.classes().to_vec();
+                let mut all = Catalogue::embedded()?.classes().to_vec();
+                all.retain(|class| !class.is_product());
                 of_colour(all, colour.as_deref().unwrap_or("white"))?
             }
         };

@@ -109,6 +109,9 @@ fn verdicts_say_where_a_class_is_missed_and_by_how_much() {
         lines.iter().any(|line| line.starts_with("fails ISO 20471") && line.contains(" at 1.5 degree")),
         "{text}"
     );
+    assert!(!text.contains("3M "), "products are no classes: {text}");
+    let asked = bench().catseye("measure m.mtlx --verdict --standard 3m:dg3:white", "");
+    assert!(asked.code == 1 && asked.stdout.starts_with("fails 3M DG3 white"), "{}", asked.stdout);
     let first_failed = lines.iter().position(|line| line.starts_with("fails ")).unwrap();
     assert!(lines[first_failed..].iter().all(|line| line.starts_with("fails ")), "{text}");
     let facts: serde_json::Value = serde_json::from_str(&measured("--verdict --json", "")).unwrap();

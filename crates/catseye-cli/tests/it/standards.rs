@@ -7,12 +7,14 @@ use crate::sheeting::bench;
 fn every_class_is_listed_with_its_source() {
     let outcome = Bench::new().catseye("standards", "");
     assert_eq!(outcome.stdout, Bench::new().catseye("standards list", "").stdout);
-    for id in ["fmvss108:dot-c4:red", "16cfr1512:bicycle:clear", "en1436:r5:white", "3m:8765:white"] {
+    for id in
+        ["fmvss108:dot-c4:red", "16cfr1512:bicycle:clear", "en1436:r5:white", "3m:8765:white", "3m:dg3:white"]
+    {
         assert!(outcome.stdout.contains(&format!("  {id} ")), "{id}");
     }
     let json = Bench::new().catseye("standards list --json", "").stdout;
     let classes: serde_json::Value = serde_json::from_str(&json).unwrap();
-    assert_eq!(classes.as_array().unwrap().len(), 54);
+    assert_eq!(classes.as_array().unwrap().len(), 90);
     assert_eq!(classes[0]["id"], "astm-d4956:i:white");
     assert!(!classes[0]["sources"][0].as_str().unwrap().is_empty());
     let rows = Bench::new().catseye("standards show en1436:r3 --json", "").stdout;

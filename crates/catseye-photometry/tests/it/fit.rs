@@ -2,7 +2,7 @@
 
 use catseye::Model;
 use catseye_photometry::fit::{Aim, FitError, FitOptions, MAX_VALUES, Observation, fit};
-use catseye_photometry::standards::Catalogue;
+use catseye_photometry::standards::{Catalogue, StandardClass};
 use catseye_photometry::{
     Apertures, Colour, EntranceLaw, Geometry, Goniometer, Limit, Quantity, RetroLobe, Sheeting,
 };
@@ -104,12 +104,17 @@ const UNMET: [(&str, f64); 5] = [
     ("fr-plate:sheeting:blue", 0.15),
 ];
 
+/// Tables that came after the laws were chosen, and how far from their values the fits are. Their three
+/// entrance angles and three observation angles, in minima of one or two digits, are met as limits if at all.
+const LATER: [&str; 6] = ["at-stvzvo:", "it-dpr495:", "3m:dg3:", "3m:hip:", "3m:egp:", "3m:3970:"];
+
 /// Every other table with two observation angles or more is within 5 % of each value, and all are physical
 /// between them.
 #[test]
 fn standards_are_met_within_5_percent_by_what_sheeting_can_be() {
     let (mut met, mut unmet) = (0, 0);
-    for class in Catalogue::embedded().unwrap().classes() {
+    let is_later = |class: &StandardClass| LATER.iter().any(|later| class.id().starts_with(later));
+    for class in Catalogue::embedded().unwrap().classes().iter().filter(|class| !is_later(class)) {
         // A product's typical values, or else a standard's minima.
         let has = |limit| class.rows().iter().any(|row| row.limit == limit);
         let wanted = if has(Limit::Typical) { Limit::Typical } else { Limit::Minimum };
@@ -139,6 +144,27 @@ fn standards_are_met_within_5_percent_by_what_sheeting_can_be() {
         }
     }
     assert_eq!((met, unmet), (34, 5));
+}
+
+/// What docs/photometry.md says of tables that the laws were not chosen on.
+#[test]
+fn tables_that_came_later_are_met_as_well_as_is_said() {
+    let catalogue = Catalogue::embedded().unwrap();
+    let cases = [
+        ("at-stvzvo:typ-1:green", 0.05),
+        ("it-dpr495:triangle:white", 0.06),
+        ("3m:dg3:white", 0.10),
+        ("3m:hip:white", 0.05),
+        ("3m:egp:red", 0.05),
+    ];
+    for (name, worst) in cases {
+        let rows = catalogue.find(name).unwrap().rows();
+        let rows: Vec<_> =
+            rows.iter().map(|row| Observation::from_row(row, Aim::Equal, Some(0.01)).unwrap()).collect();
+        let found = fit(&rows, &FitOptions::default()).unwrap();
+        println!("{name}: {} numbers, worst {:.4}", found.estimates.len(), found.worst);
+        assert!(found.worst < worst && found.fault.is_none(), "{name}: {}", found.worst);
+    }
 }
 
 #[test]
