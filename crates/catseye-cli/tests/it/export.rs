@@ -147,3 +147,58 @@ fn wrong_wishes_are_refused_in_a_line() {
         assert!(unknown.stderr.contains(target), "{}", unknown.stderr);
     }
 }
+
+/// A lobe narrower than three.js renders is given the least roughness that it does, and the error that goes with it.
+#[test]
+fn what_an_engine_can_t_reach_is_in_its_error() {
+    let bench = Bench::new();
+    bench.write(
+        "m.mtlx",
+        &material("", "").replace("nodename=\"out\"", "nodename=\"beads\"").replace("0.006", "0.002"),
+    );
+    let worst = |target: &str, file: &str| {
+        let outcome = bench.catseye(&format!("export {target} m.mtlx --entrances -4,5 -o {file} --json"), "");
+        assert_eq!(outcome.code, 0, "{}", outcome.stderr);
+        let facts: serde_json::Value = serde_json::from_str(&outcome.stdout).unwrap();
+        let number = |value: &serde_json::Value| value.as_f64().unwrap();
+        (number(&facts["parameters"]["roughness"]), number(&facts["deviations"][0]["worst"]).abs())
+    };
+    let ((free, near), (least, far)) = (worst("gltf", "m.gltf"), worst("three", "m.js"));
+    assert!(free < 0.045 && near < 0.3, "{free} {near}");
+    assert!((least - 0.045).abs() < 1e-9 && far > near, "{least} {far} {near}");
+    // The closed form: strength / (4 pi alpha^2) head on.
+    let strength = |text: &str| {
+        text.split("specularIntensity: ").nth(1).unwrap().split(',').next().unwrap().parse::<f64>()
+    };
+    let strength = strength(&std::fs::read_to_string(bench.path("m.js")).unwrap()).unwrap();
+    assert!(strength > 0.0 && strength <= 1.0, "{strength}");
+}
+
+#[test]
+fn a_lobe_of_two_widths_is_refused_where_there_is_one() {
+    let bench = Bench::with_materials();
+    for (target, file) in
+        [("gltf", "m.gltf"), ("three", "m.js"), ("openpbr", "m.mtlx"), ("radiance", "m.rad")]
+    {
+        let outcome =
+            bench.catseye(&format!("export {target} materials/anisotropic_tape.mtlx -o {file}"), "");
+        assert_eq!((outcome.code, outcome.stderr.lines().count()), (1, 1), "{target}: {}", outcome.stderr);
+        assert!(outcome.stderr.contains("export it to csv"), "{target}: {}", outcome.stderr);
+    }
+    let csv = bench.catseye("export csv materials/anisotropic_tape.mtlx -o t.csv", "");
+    assert!(
+        csv.code == 0 && csv.stderr.contains("warning") && csv.stderr.contains("rotation"),
+        "{}",
+        csv.stderr
+    );
+}
+
+/// One coefficient has no width: that of the material that is assumed for it is exported.
+#[test]
+fn a_table_without_a_width_is_exported_as_what_was_fitted() {
+    let bench = Bench::with_materials();
+    assert_eq!(bench.catseye("export openmaterial materials/vest_iso20471.mtlx -o v.xomp", "").code, 0);
+    let outcome = bench.catseye("export gltf v.xomp -o v.gltf", "");
+    assert_eq!(outcome.code, 0, "{}", outcome.stderr);
+    assert!(outcome.stdout.contains("against the table: worst"), "{}", outcome.stdout);
+}

@@ -170,6 +170,35 @@ class Gltf(unittest.TestCase):
         self.assertIn("deviations", material["extras"]["catseye"])
 
 
+    def test_the_validator_of_khronos_has_no_complaint(self):
+        """It does not know the draft, and says so: an information, not an error or a warning."""
+        node, packages = packages_of(self, "gltf-validator@2.0.0-dev.3.10")
+        exported = Exported(self, "gltf", STANDARD, "m.gltf")
+        with tempfile.TemporaryDirectory(dir=packages) as folder:
+            script = pathlib.Path(folder) / "validate.mjs"
+            script.write_text("""
+                import { readFileSync } from 'node:fs';
+                import validator from 'gltf-validator';
+                const report = await validator.validateBytes(new Uint8Array(readFileSync(process.argv[2])));
+                console.log(JSON.stringify(report.issues));""")
+            output, good = run(node, script, exported.path)
+        self.assertTrue(good, output)
+        issues = json.loads(output)
+        self.assertEqual((issues["numErrors"], issues["numWarnings"]), (0, 0), issues)
+
+
+def packages_of(case, package):
+    """node, and the folder that a package of npm is in: beside the packages of Python, where it stays."""
+    node, npm = tool(case, "node"), tool(case, "npm")
+    name = package.split("@")[0]
+    packages = pathlib.Path(sys.prefix) / f"npm-{name}"
+    if not (packages / "node_modules" / name).exists():
+        output, good = run(npm, "install", "--prefix", packages, "--ignore-scripts", package)
+        if not good:
+            missing(case, f"{package} can't be installed: {output}")
+    return node, packages
+
+
 def gltf_pbr(text):
     """The material of an asset as MaterialX's node of glTF's model."""
     [material] = json.loads(text)["materials"]
@@ -186,12 +215,7 @@ def gltf_pbr(text):
 
 class Three(unittest.TestCase):
     def test_three_reads_it_and_its_shader_returns_what_is_stated(self):
-        node, npm = tool(self, "node"), tool(self, "npm")
-        packages = pathlib.Path(sys.prefix) / "npm-three"
-        if not (packages / "node_modules/three").exists():
-            output, good = run(npm, "install", "--prefix", packages, "--ignore-scripts", THREE)
-            if not good:
-                missing(self, f"{THREE} can't be installed: {output}")
+        node, packages = packages_of(self, THREE)
         try:
             from three import Shader
         except ImportError as error:

@@ -21,9 +21,9 @@ use self::openmaterial::OpenMaterialArgs;
 use self::original::{Aims, Original};
 use self::parts::Parts;
 use crate::failure::Usage;
-use crate::help;
 use crate::options::LibraryArgs;
 use crate::output::{Output, must_end_in};
+use crate::{help, report};
 
 /// The least roughness that three.js renders with; a smaller one is raised to it.
 const THREE_LEAST_ROUGHNESS: f64 = 0.045;
@@ -154,6 +154,12 @@ impl Args {
         let output = Output::new(&self.output)?;
         let original = Original::load(self)?;
         let table = original.grid(&self.observations, &self.entrances)?;
+        if original.depends_on_rotation(&LobeRows::of(table.rows()).lobe) {
+            report::warn(format!(
+                "{}: R_A depends on the rotation of the sample; these are at 0",
+                original.name
+            ));
+        }
         let values = table.rows().iter().map(|row| format!("{:?}", row.value.unwrap_or(f64::NAN)));
         output.write(table.to_csv(&[("value", values.collect())]).as_bytes())?;
         // The grid is the material itself.

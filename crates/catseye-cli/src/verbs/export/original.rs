@@ -24,6 +24,8 @@ use crate::verbs::fit::subject::Subject;
 /// base.
 const DAY_DEG: f64 = 45.0;
 const BLACK: f64 = 1e-4;
+/// How far the logarithms of two values may differ that are the same: more than single precision makes of them.
+const SAME: f64 = 0.01;
 /// Entrance angle in degrees at which the width of the material's curve is looked up.
 const WIDTH_ENTRANCE_DEG: f64 = 5.0;
 /// The widest half-power angle that the standards' observation angles show well, and the one that wider
@@ -59,12 +61,25 @@ pub(super) struct Aims {
     pub(super) base: f64,
 }
 
+/// Whether the value is a luminance factor by day.
+fn is_by_day(row: &Observation) -> bool {
+    row.views.iter().any(|view| view.wo.dot(view.wi) <= DAY_DEG.to_radians().cos() + 1e-6)
+}
+
+/// Whether the observations are at more observation angles than one.
+fn has_several_angles(rows: &[Observation]) -> bool {
+    let angle = |row: &Observation| {
+        let view = &row.views[0];
+        Geometry { wo: view.wo, wi: view.wi }.observation()
+    };
+    rows.iter().any(|row| (angle(row) - angle(&rows[0])).abs() > 1e-4)
+}
+
 /// The observations of the lobes, less what a base of this albedo returns there.
 fn without_base(observations: Vec<Observation>, base: f64) -> Vec<Observation> {
     let less = |row: Observation| {
         let returned: f64 = row.views.iter().map(|view| view.factor * base / PI).sum();
-        let is_day = row.views.iter().any(|view| view.wo.dot(view.wi) < 0.5_f64.sqrt() + 1e-6);
-        (!is_day && row.value > returned).then_some(Observation { value: row.value - returned, ..row })
+        (row.value > returned).then_some(Observation { value: row.value - returned, ..row })
     };
     observations.into_iter().filter_map(less).collect()
 }
@@ -157,14 +172,35 @@ impl Original {
         let lobe = [0, 1, 2].map(|c| (peak[c] - day[c]).max(0.0));
         let colour = |rgb| self.colour.or_else(|| Colour::from_rec709(rgb)).unwrap_or(Colour::WHITE);
         let colours = Colours { lobe: colour(lobe), base: colour(day) };
-        let observations = match &self.table {
-            Some(_) => self.observations.clone(),
-            None => {
-                let rows = lobe_rows.iter().map(|row| Observation::from_row(row, Aim::Equal, None));
-                rows.collect::<Result<_, _>>()?
-            }
+        self.refuse_rotation(lobe_rows)?;
+        let seen: Vec<Observation> =
+            self.observations.iter().filter(|row| !is_by_day(row)).cloned().collect();
+        // A table at one observation angle says nothing of the width; what was fitted to it has one.
+        let observations = if has_several_angles(&seen) {
+            seen
+        } else {
+            let rows = lobe_rows.iter().map(|row| Observation::from_row(row, Aim::Equal, None));
+            rows.collect::<Result<_, _>>()?
         };
         Ok(Aims { observations: without_base(observations, base), colours, base })
+    }
+
+    /// Refuses a material whose lobe is wider in one direction of the sample than in another.
+    fn refuse_rotation(&self, rows: &[Row]) -> anyhow::Result<()> {
+        if self.depends_on_rotation(rows) {
+            bail!(
+                "{}: what it returns depends on the rotation of the sample, and this target has lobes of one \
+                 width; export it to csv or openmaterial, at rotation 0",
+                self.name
+            );
+        }
+        Ok(())
+    }
+
+    /// Whether some of the rows would be another one with the sample turned.
+    pub(super) fn depends_on_rotation(&self, rows: &[Row]) -> bool {
+        let turned = |row: &Row, rotation_deg| self.brdf(&Row { rotation_deg, ..row.clone() }.geometry());
+        rows.iter().any(|row| (turned(row, 90.0) / turned(row, 0.0)).ln().abs() > SAME)
     }
 
     /// By how much the observation angles of sheeting are too small: 1 for sheeting.
