@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use crate::brdf::Contradiction;
 use crate::digits::significant;
 use crate::drive::DriveError;
 
@@ -24,6 +25,14 @@ pub enum Error {
         table: String,
         /// What is wrong, and the way out.
         problem: String,
+    },
+    /// A measured BRDF whose values are not what its header says.
+    #[error("{file}: {found}")]
+    Cosine {
+        /// The file.
+        file: String,
+        /// What they are.
+        found: Contradiction,
     },
     /// Something wrong with a row.
     #[error("{table}:{line}: {problem}")]

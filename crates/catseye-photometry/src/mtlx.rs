@@ -66,9 +66,10 @@ pub fn to_mtlx(sheeting: &Sheeting, text: &MaterialText<'_>) -> String {
     }
     let mut sheet = sum(&mut document, &parts);
     if let Some(ior) = sheeting.coat_ior {
+        let alpha = number(sheeting.coat_roughness);
         let inputs = [
             ("ior", "float", Binding::Value(number(ior))),
-            ("roughness", "vector2", Binding::Value("0, 0".to_owned())),
+            ("roughness", "vector2", Binding::Value(format!("{alpha}, {alpha}"))),
             ("scatter_mode", "string", Binding::Value("R".to_owned())),
         ];
         document.node("dielectric_bsdf", "coat", "BSDF", &inputs);

@@ -3,7 +3,7 @@
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-use catseye::{AnyLobe, Edwards, Lobe as _, Model, ParamError, Params, Vec3};
+use catseye::{AnyLobe, BackVector, Edwards, Lobe as _, Model, ParamError, Params, Vec3};
 
 use crate::entrance::{EntranceLaw, LEAST_COSINE, log_squared_tangent};
 
@@ -42,8 +42,10 @@ pub struct Sheeting {
     pub lobes: Vec<RetroLobe>,
     /// Albedo of the diffuse base.
     pub diffuse: f64,
-    /// Refractive index of a smooth clear coat, where there is one.
+    /// Refractive index of a clear coat, where there is one.
     pub coat_ior: Option<f64>,
+    /// Roughness of the coat's surface, GGX's alpha in [0, 1]; 0 is smooth. What lies below sees a smooth one.
+    pub coat_roughness: f64,
 }
 
 impl RetroLobe {
@@ -67,7 +69,8 @@ impl Sheeting {
     /// The first roughness that is NaN or outside the range of the lobe model.
     pub fn prepare(&self) -> Result<PreparedSheeting<'_>, ParamError> {
         let lobes = self.lobes.iter().map(|lobe| UnitLobe::new(self.model, lobe));
-        Ok(PreparedSheeting { sheeting: self, lobes: lobes.collect::<Result<_, _>>()? })
+        let surface = self.coat_ior.map(|ior| Surface::new(ior, self.coat_roughness)).transpose()?;
+        Ok(PreparedSheeting { sheeting: self, lobes: lobes.collect::<Result<_, _>>()?, surface })
     }
 
     /// What the coat lets through: as a layer in MaterialX, once, by the direction to the viewer.
@@ -102,6 +105,7 @@ impl Sheeting {
 pub struct PreparedSheeting<'a> {
     sheeting: &'a Sheeting,
     lobes: Vec<UnitLobe>,
+    surface: Option<Surface>,
 }
 
 impl PreparedSheeting<'_> {
@@ -114,6 +118,32 @@ impl PreparedSheeting<'_> {
             lobes.map(|(own, lobe)| own.strength * own.factor(model, wo.z) * lobe.eval(wo, wi)).sum();
         let diffuse = if wo.z.min(wi.z) > 0.0 { diffuse / PI } else { 0.0 };
         self.sheeting.transmitted(wo) * (retro + diffuse)
+    }
+
+    /// The BSDF in 1/sr with the reflection by the coat's surface, where that is rough.
+    #[must_use]
+    pub fn eval_with_surface(&self, wo: Vec3<f64>, wi: Vec3<f64>) -> f64 {
+        self.eval(wo, wi) + self.surface.as_ref().map_or(0.0, |surface| surface.eval(wo, wi))
+    }
+}
+
+/// The surface of a coat: GGX facets of a dielectric, which reflect once.
+#[derive(Clone, Debug)]
+pub(crate) struct Surface {
+    ior: f64,
+    facets: BackVector<f64>,
+}
+
+impl Surface {
+    pub(crate) fn new(ior: f64, roughness: f64) -> Result<Self, ParamError> {
+        Ok(Self { ior, facets: BackVector::new([roughness; 2], [1.0; 3])? })
+    }
+
+    /// The BSDF in 1/sr; 0 of a smooth surface.
+    pub(crate) fn eval(&self, wo: Vec3<f64>, wi: Vec3<f64>) -> f64 {
+        // The back-vector lobe is GGX's reflection with the viewer mirrored.
+        let facets = self.facets.eval(Vec3::new(-wo.x, -wo.y, wo.z), wi)[0];
+        facets * fresnel((0.5 + 0.5 * wo.dot(wi)).max(0.0).sqrt(), self.ior)
     }
 }
 

@@ -3,6 +3,8 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 
+use catseye::Vec3;
+use catseye_photometry::{EntranceLaw, Geometry, Goniometer, Quantity, RetroLobe, Sheeting};
 use serde_json::Value;
 
 use crate::run::Bench;
@@ -47,6 +49,136 @@ fn a_written_material_has_the_values_that_the_fit_says() {
         }
         let check = bench.catseye("materialx check sheet.mtlx", "");
         assert_eq!(check.code, 0, "{}", check.stdout);
+    }
+}
+
+/// A tape under a rough coat.
+fn coated_tape() -> Sheeting {
+    let entrance = Some(EntranceLaw::power(3.0));
+    let lobes = vec![RetroLobe { strength: 0.1, roughness: [0.05; 2], entrance }];
+    Sheeting { lobes, diffuse: 0.2, coat_ior: Some(1.5), coat_roughness: 0.08, ..Sheeting::default() }
+}
+
+/// A file of its BRDF in ALTA's format, with the receiver's cosine in the values: a grid of 3 degrees.
+fn alta(tape: &Sheeting, header: &str) -> String {
+    let prepared = tape.prepare().unwrap();
+    let mut text = format!("#DIM 3 1\n#PARAM_IN ISOTROPIC_TL_TV_PROJ_DPHI\n{header}");
+    for light in [15.0_f64, 30.0, 60.0].map(f64::to_radians) {
+        for (i, j) in (-25..=25).flat_map(|i| (-25..=25).map(move |j| (i, j))) {
+            let [x, y] = [i, j].map(|k| f64::from(3 * k).to_radians());
+            let (wo, wi) = (Vec3::from_angles(x.hypot(y), y.atan2(x)), Vec3::from_angles(light, 0.0));
+            if wo.z > 0.2 {
+                text += &format!(
+                    "{light:.17} {x:.17} {y:.17} {:.17e}\n",
+                    wo.z * prepared.eval_with_surface(wo, wi)
+                );
+            }
+        }
+    }
+    text
+}
+
+/// The regions have names and numbers in text, JSON and report, and the material has its base and its coat.
+#[test]
+fn a_measured_brdf_is_fitted_in_all_its_parts() {
+    let bench = Bench::new();
+    bench.write("tape.dat", &alta(&coated_tape(), "#PARAM_OUT INV_STERADIAN_COSINE_FACTOR\n"));
+    let fit = bench.catseye("fit tape.dat --lobes 1 -o tape.mtlx --report tape.html", "");
+    assert_eq!((fit.code, fit.stderr.as_str()), (0, ""), "{}", fit.stdout);
+    let page = fs::read_to_string(bench.path("tape.html")).unwrap();
+    for region in [
+        "within 20 deg of the incident",
+        "within 20 deg of the mirror",
+        "elsewhere, to 80 deg",
+        "the whole file",
+    ] {
+        assert!(
+            fit.stdout.contains(&format!("\n{region}")) && page.contains(region),
+            "{region}: {}",
+            fit.stdout
+        );
+    }
+    let told = bench.catseye("fit tape.dat --lobes 1 --json", "");
+    let told: Value = serde_json::from_str(&told.stdout).unwrap();
+    let regions = told["regions"].as_array().unwrap();
+    assert_eq!(regions.len(), 4);
+    let whole = regions[3]["samples"].as_u64().unwrap();
+    assert!(regions[..3].iter().map(|region| region["samples"].as_u64().unwrap()).sum::<u64>() <= whole);
+    assert!(regions.iter().all(|region| region["log_rmse"].as_f64().unwrap() < 0.02), "{told}");
+    assert!((told["coat_ior"].as_f64().unwrap() - 1.5).abs() < 0.02, "{told}");
+    assert!((told["coat_roughness"].as_f64().unwrap() / 0.08 - 1.0).abs() < 0.02, "{told}");
+    assert_eq!((&told["accepted"], &told["log_rmse"]), (&true.into(), &regions[0]["log_rmse"]));
+
+    // Around the incident direction, around the mirror one (entrance 30, receiver 30 beyond the normal), and
+    // elsewhere.
+    let geometry = "observation_deg,entrance_deg,rotation_deg\n0.5,30,0\n5,30,0\n60,30,0\n66,30,0\n45,60,0\n";
+    bench.write("g.csv", geometry);
+    let found = bench.catseye("measure tape.mtlx --geometry g.csv", "");
+    assert_eq!((found.code, found.stderr.as_str()), (0, ""));
+    let (tape, mut reader) = (coated_tape(), csv::Reader::from_reader(found.stdout.as_bytes()));
+    let prepared = tape.prepare().unwrap();
+    for record in reader.records().map(Result::unwrap) {
+        let number = |i: usize| record[i].parse::<f64>().unwrap();
+        let geometry = Geometry::from(Goniometer::from_degrees(number(0), number(1), 0.0, number(2)));
+        let f = prepared.eval_with_surface(geometry.wo, geometry.wi);
+        let r_a = Quantity::RetroReflectionCoefficient.of_brdf(f, &geometry).unwrap();
+        let measured = number(record.len() - 1);
+        // The fit, and that a rough coat lets a little less through than the smooth one of the fit.
+        assert!((measured / r_a - 1.0).abs() < 0.03, "{record:?}: {r_a}");
+    }
+}
+
+#[test]
+fn a_brdf_that_is_none_is_refused_in_one_line_that_says_why() {
+    let good = alta(&coated_tape(), "#PARAM_OUT INV_STERADIAN_COSINE_FACTOR\n");
+    let header = "#DIM 3 1\n#PARAM_IN ISOTROPIC_TL_TV_PROJ_DPHI\n#PARAM_OUT INV_STERADIAN\n";
+    let every = |value: &str| {
+        let rows = (0..400)
+            .map(|i| format!("0.5 {} {} {value}\n", 0.05 * f64::from(i % 20), 0.05 * f64::from(i / 20)));
+        format!("{header}{}", rows.collect::<String>())
+    };
+    let silent = alta(&coated_tape(), "");
+    let wrong = alta(&Sheeting::default(), header);
+    let merl = |plane: usize, value: f64| {
+        let sizes = [90_i32, 90, 180].into_iter().flat_map(i32::to_le_bytes);
+        sizes.chain(std::iter::repeat_n(value.to_le_bytes(), 3 * plane).flatten()).collect::<Vec<u8>>()
+    };
+    let cases: [(&str, Vec<u8>, &str); 16] = [
+        (
+            "t.dat",
+            good.as_bytes()[..good.len() / 2].to_vec(),
+            "numbers where #DIM says 4; is the file cut off?",
+        ),
+        ("t.dat", silent.into_bytes(), "as they were read; --cosine reads them so"),
+        ("t.dat", every("NaN").into_bytes(), "400 are negative, not finite or above"),
+        ("t.dat", every("inf").into_bytes(), "400 are negative, not finite or above"),
+        ("t.dat", every("1e999").into_bytes(), "400 are negative, not finite or above"),
+        ("t.dat", every("-1").into_bytes(), "400 are negative, not finite or above"),
+        ("t.dat", every("0").into_bytes(), "no value is within 30 deg of the retro direction"),
+        ("t.dat", every("0.1").into_bytes(), "no lobe stands out"),
+        ("t.dat", every("1e300").into_bytes(), "400 are negative, not finite or above"),
+        ("t.dat", wrong.into_bytes(), "no value is within 30 deg of the retro direction"),
+        ("t.dat", b"#DIM 3 99999999999999999999\n".to_vec(), "#DIM needs two numbers"),
+        ("t.dat", [header.as_bytes(), &vec![b'1'; 1 << 20]].concat(), "has 1 numbers where #DIM says 4"),
+        ("t.dat", vec![0; 1000], "MERL's files have 90 x 90 x 180"),
+        ("t.binary", merl(90 * 90 * 180, f64::NAN), "has no usable samples"),
+        ("t.binary", merl(1000, 0.1), "is it cut off?"),
+        ("t.binary", Vec::new(), "has no usable samples"),
+    ];
+    for (name, bytes, expected) in cases {
+        let bench = Bench::new();
+        fs::write(bench.path(name), &bytes).unwrap();
+        let fit = bench.catseye(&format!("fit {name} -o t.mtlx"), "");
+        let start = String::from_utf8_lossy(&bytes[..bytes.len().min(200)]).into_owned();
+        assert_eq!(
+            (fit.code, fit.stderr.lines().count()),
+            (1, 1),
+            "{expected}: {start}: {}{}",
+            fit.stdout,
+            fit.stderr
+        );
+        assert!(fit.stderr.contains(name) && fit.stderr.contains(expected), "{expected}: {}", fit.stderr);
+        assert_eq!(bench.files(), [name], "{expected}");
     }
 }
 

@@ -43,6 +43,9 @@ pub(super) fn parse(bytes: &[u8], name: &str, cosine: Cosine) -> Result<Brdf, Er
             rows.read(line, &mut brdf).map_err(in_line(number))?;
         }
     }
+    if !text.ends_with('\n') {
+        brdf.remarks.push("the file ends within a line: its last number may be cut off".to_owned());
+    }
     Ok(brdf)
 }
 
@@ -125,6 +128,7 @@ impl Rows {
             }
             (given, _) => given,
         };
+        brdf.read_as = cosine;
         Ok(Self { coordinates, values, cosine })
     }
 

@@ -6,8 +6,8 @@
 
 use std::f64::consts::{FRAC_PI_2, PI};
 
-use super::Brdf;
 use super::coordinates::half_difference;
+use super::{Brdf, Cosine};
 
 /// Factors of the channels.
 const SCALES: [f64; 3] = [1.0 / 1500.0, 1.15 / 1500.0, 1.66 / 1500.0];
@@ -44,7 +44,7 @@ pub(super) fn parse(bytes: &[u8], dimensions: [u32; 3]) -> Result<Brdf, String> 
         eight.copy_from_slice(&bytes[start..start + size_of::<f64>()]);
         f64::from_le_bytes(eight)
     };
-    let mut brdf = Brdf::default();
+    let mut brdf = Brdf { read_as: Cosine::Excluded, ..Brdf::default() };
     for i in 0..plane {
         let value = [0, 1, 2].map(|channel| number(i + channel * plane) * SCALES[channel]);
         // The directions of most cells are those of a bin's middle; half angles are spaced as squares.

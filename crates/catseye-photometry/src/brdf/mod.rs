@@ -6,7 +6,9 @@
 //! entrance angle.
 
 mod alta;
+mod coat;
 mod coordinates;
+mod fitted;
 mod merl;
 mod metrics;
 mod reciprocity;
@@ -20,9 +22,11 @@ use catseye::Vec3;
 
 use crate::{Error, luminance};
 
+pub use coat::Coat;
+pub use fitted::{BrdfFit, BrdfFitError, Part};
 pub use metrics::{Metrics, metrics};
-pub use reciprocity::Reciprocity;
-pub use selection::Selection;
+pub use reciprocity::{Contradiction, Reciprocity};
+pub use selection::{Region, Selection};
 
 /// Bytes of the largest file that is read: MERL's have 33 MiB, with 360 azimuths 67.
 const LARGEST: u64 = 80 << 20;
@@ -62,7 +66,7 @@ pub enum Cosine {
 /// Samples that a file has and that are left out.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Skipped {
-    /// Negative or not finite: how MERL marks what was not measured.
+    /// Negative, which is how MERL marks what was not measured, not finite, or above 1e9 per steradian.
     pub invalid: usize,
     /// With a direction below the surface or along it.
     pub below_horizon: usize,
@@ -77,6 +81,8 @@ pub struct Brdf {
     pub samples: Vec<BrdfSample>,
     /// What was left out.
     pub skipped: Skipped,
+    /// What the file's values were read as; never [`Cosine::AsStated`].
+    pub read_as: Cosine,
     /// What was assumed, a sentence each.
     pub remarks: Vec<String>,
 }
@@ -98,7 +104,9 @@ impl Brdf {
     ///
     /// # Errors
     /// Names the file, for ALTA also the line: dimensions that don't fit, a parametrisation that isn't known,
-    /// a cell that is no number, missing cells, a file without usable samples.
+    /// a cell that is no number, missing cells, a file without usable samples. [`Error::Cosine`] where the
+    /// header is believed and the values of exchanged directions contradict it; where `cosine` is given, that
+    /// is a remark.
     pub fn parse(bytes: &[u8], name: &str, cosine: Cosine) -> Result<Self, Error> {
         let fail = |problem: String| Error::Table { table: name.to_owned(), problem };
         if bytes.len() as u64 > LARGEST {
@@ -111,19 +119,30 @@ impl Brdf {
         name.clone_into(&mut brdf.name);
         if brdf.samples.is_empty() {
             let Skipped { invalid, below_horizon } = brdf.skipped;
-            let what = format!("{invalid} are negative or not finite, {below_horizon} below the surface");
+            let what = format!(
+                "{invalid} are negative, not finite or above 1e9/sr, {below_horizon} below the surface"
+            );
             return Err(fail(format!("has no usable samples: {what}")));
         }
-        brdf.remarks.extend(brdf.reciprocity().and_then(|found| found.contradiction(cosine)));
-        Ok(brdf)
+        let found = brdf.reciprocity().and_then(|found| found.contradiction(brdf.read_as));
+        match (found, cosine) {
+            (Some(found), Cosine::AsStated) => Err(Error::Cosine { file: name.to_owned(), found }),
+            (Some(found), _) => {
+                brdf.remarks.push(found.to_string());
+                Ok(brdf)
+            }
+            (None, _) => Ok(brdf),
+        }
     }
 
     /// Adds a sample or counts why not.
     fn push(&mut self, wo: Vec3<f64>, wi: Vec3<f64>, value: [f64; 3]) {
         /// Cosines below this, at 89.9 degrees, are rounding of the horizon.
         const HORIZON: f64 = 1.7e-3;
+        /// No instrument sees a mirror as more, 1/sr: it would resolve 2e-5 radians.
+        const MOST: f64 = 1e9;
         let directions_are_finite = [wo.x, wo.y, wi.x, wi.y].iter().all(|x| x.is_finite());
-        if !directions_are_finite || value.iter().any(|x| !(x.is_finite() && *x >= 0.0)) {
+        if !directions_are_finite || value.iter().any(|x| !(0.0..=MOST).contains(x)) {
             self.skipped.invalid += 1;
         } else if wo.z > HORIZON && wi.z > HORIZON {
             self.samples.push(BrdfSample { wo, wi, value });

@@ -5,6 +5,7 @@
 //! header says.
 
 use std::collections::HashMap;
+use std::fmt;
 
 use catseye::Vec3;
 
@@ -17,8 +18,9 @@ const BIN: f64 = 5e-3;
 const LEAST_QUOTIENT: f64 = 1.05;
 /// Pairs needed for a verdict.
 const LEAST_PAIRS: usize = 3;
-/// How many times better the other reading must agree for a contradiction.
+/// How many times better the other reading must agree for a contradiction, and how well: 28 %.
 const CLEAR: f64 = 3.0;
+const WELL: f64 = 0.25;
 
 /// How well the values of exchanged directions agree.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -61,23 +63,40 @@ impl Brdf {
 }
 
 impl Reciprocity {
-    /// What to do where the values are clearly not what they were read as.
-    pub(super) fn contradiction(&self, cosine: Cosine) -> Option<String> {
-        let Self { pairs, as_read, divided, multiplied } = *self;
-        let said = |other: f64, what: &str| {
-            format!(
-                "{pairs} pairs of exchanged directions are reciprocal within {:.0} % if values are {what}, and only \
-                 within {:.0} % as they were read",
-                100.0 * other.exp_m1(),
-                100.0 * as_read.exp_m1(),
-            )
+    /// What is wrong where values that were read as `cosine` are clearly something else.
+    pub(super) fn contradiction(&self, cosine: Cosine) -> Option<Contradiction> {
+        let other = if cosine == Cosine::Included { self.multiplied } else { self.divided };
+        let clear = other * CLEAR < self.as_read && other < WELL;
+        let included = cosine != Cosine::Included;
+        clear.then_some(Contradiction { pairs: self.pairs, as_read: self.as_read, other, included })
+    }
+}
+
+/// Values that are not what they were read as.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Contradiction {
+    /// Pairs of samples with exchanged directions.
+    pub pairs: usize,
+    /// Root mean square of the logarithms of their quotients, as the values were read.
+    pub as_read: f64,
+    /// The same for the other reading.
+    pub other: f64,
+    /// Whether the other reading is that of values with the receiver's cosine.
+    pub included: bool,
+}
+
+impl fmt::Display for Contradiction {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let [right, wrong] = [self.other, self.as_read].map(|log| 100.0 * log.exp_m1());
+        let (right_is, wrong_is) = match self.included {
+            true => ("f times the receiver's cosine", "f"),
+            false => ("f", "f times the receiver's cosine"),
         };
-        if cosine != Cosine::AsStated {
-            return None;
-        }
-        if divided * CLEAR < as_read {
-            return Some(said(divided, "f times the receiver's cosine"));
-        }
-        (multiplied * CLEAR < as_read).then(|| said(multiplied, "f without a cosine"))
+        write!(
+            f,
+            "{} pairs of exchanged directions are reciprocal within {right:.0} % if values are {right_is}, and within \
+             {wrong:.0} % if they are {wrong_is}, as they were read",
+            self.pairs
+        )
     }
 }

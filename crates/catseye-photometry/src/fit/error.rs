@@ -63,6 +63,9 @@ pub enum FitError {
         /// The lobes asked for.
         lobes: usize,
     },
+    /// The best model is no retro-reflector.
+    #[error("no lobe stands out of the values near the retro direction: they are those of a diffuse surface")]
+    NoLobe,
     /// Nothing came out.
     #[error("no start of any form leads to finite numbers; check the table's units")]
     NoSolution,

@@ -194,6 +194,7 @@ impl Form {
             lobes: (0..self.lobes).map(lobe).collect(),
             diffuse: find(Meaning::Diffuse).map_or(0.0, f64::exp),
             coat_ior: self.coat_ior,
+            coat_roughness: 0.0,
         }
     }
 }

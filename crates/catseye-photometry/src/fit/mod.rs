@@ -18,6 +18,7 @@ mod uncertainty;
 
 pub use error::{FitError, MAX_VALUES};
 pub use form::{EntranceKind, Form, Meaning};
+pub(crate) use observation::RETRO_REACH;
 pub use observation::{Aim, Observation, RowError, View};
 pub use physical::Fault;
 pub use select::MAX_LOBES;
@@ -123,6 +124,9 @@ pub fn fit(observations: &[Observation], options: &FitOptions) -> Result<Fit, Fi
     let span = select::Span::of(observations);
     span.check(options)?;
     let (solution, trials) = select::choose(observations, options, &span)?;
+    if greatest_share(&solution.sheeting, observations) < LEAST_SHARE {
+        return Err(FitError::NoLobe);
+    }
     let estimates = uncertainty::estimates(&solution, observations, options);
     let mut warnings = span.warnings(options, observations.len(), solution.unknowns());
     warnings.extend(estimates.iter().filter_map(Estimate::warning));
@@ -144,6 +148,21 @@ pub fn fit(observations: &[Observation], options: &FitOptions) -> Result<Fit, Fi
         warnings,
         sheeting: solution.sheeting,
     })
+}
+
+/// The least part of some value near the retro direction that lobes must have, and the roughness beyond which
+/// a lobe is none: its half-power angle is 45 degrees.
+const LEAST_SHARE: f64 = 0.05;
+const WIDEST: f64 = 1.0;
+
+/// The greatest part that lobes which are some have of the model's values near the retro direction.
+fn greatest_share(sheeting: &Sheeting, observations: &[Observation]) -> f64 {
+    let lobes = sheeting.lobes.iter().filter(|lobe| lobe.roughness[0].min(lobe.roughness[1]) < WIDEST);
+    let lobes = Sheeting { lobes: lobes.copied().collect(), diffuse: 0.0, ..sheeting.clone() };
+    let (Ok(whole), Ok(lobes)) = (sheeting.prepare(), lobes.prepare()) else { return 0.0 };
+    let share = |view: &View| lobes.eval(view.wo, view.wi) / whole.eval(view.wo, view.wi);
+    let retro = observations.iter().filter(|row| row.is_retro());
+    retro.flat_map(|row| &row.views).map(share).fold(0.0, f64::max)
 }
 
 fn is_acceptable(solution: &Solution, rows: usize, tolerance: f64) -> bool {

@@ -1,9 +1,9 @@
 //! Promise: measured BRDFs are read as what they are, and files that are none are refused.
 
 use catseye::{Lobe as _, Params, Reciprocal, Vec3};
-use catseye_photometry::brdf::{Brdf, Cosine, Selection, Skipped, metrics};
+use catseye_photometry::brdf::{Brdf, Cosine, Metrics, Selection, Skipped, metrics};
 use catseye_photometry::fit::{EntranceKind, FitOptions, fit};
-use catseye_photometry::{Apertures, EntranceLaw, Geometry, RetroLobe, Sheeting};
+use catseye_photometry::{Apertures, EntranceLaw, Error, Geometry, RetroLobe, Sheeting};
 
 fn lobe() -> Reciprocal<f64> {
     let params = Params::isotropic(0.08).with_tint([0.9, 0.5, 0.1]).with_multiscatter_tint([0.5; 3]);
@@ -53,19 +53,25 @@ fn alta_text_is_the_brdf_with_and_without_cosine() {
 }
 
 #[test]
-fn the_header_is_believed_and_contradicted_by_name() {
+fn a_header_that_the_values_contradict_is_refused() {
     let stated = format!("{HEADER}#PARAM_OUT INV_STERADIAN\n");
     let read = |text: &str, cosine| Brdf::parse(text.as_bytes(), "a.dat", cosine).unwrap();
     let text = alta(&lobe(), &stated, true);
-    let believed = read(&text, Cosine::AsStated);
-    assert!(believed.remarks[0].contains("f times the receiver's cosine"), "{:?}", believed.remarks);
+    let error = |text: &str| Brdf::parse(text.as_bytes(), "a.dat", Cosine::AsStated).unwrap_err();
+    let believed = error(&text);
+    assert!(matches!(believed, Error::Cosine { found, .. } if found.included), "{believed}");
+    assert!(
+        believed.to_string().starts_with("a.dat: ") && believed.to_string().contains("as they were read")
+    );
     let told = read(&text, Cosine::Included);
     assert!(told.remarks.is_empty());
     assert_is(&told, &lobe(), [1; 3], 1e-9);
 
     let wrong = alta(&lobe(), &format!("{HEADER}#PARAM_OUT INV_STERADIAN_COSINE_FACTOR\n"), false);
-    let remarks = read(&wrong, Cosine::AsStated).remarks;
-    assert!(remarks[0].contains("f without a cosine"), "{remarks:?}");
+    assert!(matches!(error(&wrong), Error::Cosine { found, .. } if !found.included));
+    // Whoever insists is told.
+    let insisted = read(&text, Cosine::Excluded).remarks;
+    assert!(insisted[0].contains("if values are f times the receiver's cosine"), "{insisted:?}");
 
     let silent = read(&alta(&lobe(), HEADER, false), Cosine::AsStated);
     assert!(silent.remarks[0].contains("#PARAM_OUT is missing"), "{:?}", silent.remarks);
@@ -180,7 +186,7 @@ fn bad_alta_files_are_errors_that_name_the_line() {
         (&format!("{HEADER}0.3 0.3 zero 1\n"), ":6: number 3: \"zero\""),
         (
             &format!("{HEADER}0.3 0.3 0 -1\n0.3 NaN 0 1\n0.3 2.5 0 1\n"),
-            "2 are negative or not finite, 1 below",
+            "2 are negative, not finite or above 1e9/sr, 1 below",
         ),
     ] {
         let message = Brdf::parse(text.as_bytes(), "a.dat", Cosine::AsStated).unwrap_err().to_string();
@@ -234,48 +240,105 @@ fn noise(state: &mut u64) -> f64 {
     (*state >> 11) as f64 / (1_u64 << 52) as f64 - 1.0
 }
 
-/// A tape as the published ones are: two lobes on a base, light at 15, 30 and 60 degrees, rings of a degree
-/// around the retro direction, which is a sample itself up to rounding, and noise of 10 % in the mean.
-fn tape() -> Brdf {
+/// A tape as the published ones are: two lobes on a base under a coat.
+fn tape() -> Sheeting {
     let law = Some(EntranceLaw::power(3.0));
     let lobe = |strength, roughness| RetroLobe { strength, roughness: [roughness; 2], entrance: law };
-    let tape =
-        Sheeting { lobes: vec![lobe(0.1, 0.02), lobe(0.12, 0.07)], diffuse: 0.2, ..Sheeting::default() };
+    let lobes = vec![lobe(0.1, 0.02), lobe(0.12, 0.07)];
+    let coat_ior = Some(1.5);
+    Sheeting { lobes, diffuse: 0.2, coat_ior, coat_roughness: 0.05, ..Sheeting::default() }
+}
+
+/// Its file: light at 15, 30 and 60 degrees, rings of a degree around the retro direction, which is a sample
+/// itself up to rounding, and around the mirror direction, a grid of 5 degrees, and noise of 10 % in the mean.
+fn text_of(tape: &Sheeting) -> String {
     let (prepared, mut state) = (tape.prepare().unwrap(), 1);
     let mut text = format!("{HEADER}#PARAM_OUT INV_STERADIAN\n");
     for light in [15.0_f64, 30.0, 60.0].map(f64::to_radians) {
-        for (ring, spoke) in (0..20).flat_map(|ring| (0..24).map(move |spoke| (ring, spoke))) {
-            let (sin, cos) = f64::from(15 * spoke).to_radians().sin_cos();
-            let offset = f64::from(ring).to_radians();
-            let [x, y] = [light + offset * cos, offset * sin];
+        let rings = (0..20).flat_map(|ring| (0..24).map(move |spoke| (f64::from(ring), f64::from(spoke))));
+        let around = rings.filter(|(ring, spoke)| *ring > 0.0 || *spoke == 0.0).flat_map(|(ring, spoke)| {
+            let (sin, cos) = (15.0 * spoke).to_radians().sin_cos();
+            let offset = ring.to_radians();
+            [light, -light].map(|middle| [middle + offset * cos, offset * sin])
+        });
+        let grid =
+            (-16..=16).flat_map(|i| (-16..=16).map(move |j| [i, j].map(|k| f64::from(5 * k).to_radians())));
+        for [x, y] in around.chain(grid) {
             let (wo, wi) = (Vec3::from_angles(x.hypot(y), y.atan2(x)), Vec3::from_angles(light, 0.0));
-            if wo.z > 0.1 && (ring > 0 || spoke == 0) {
-                let f = prepared.eval(wo, wi) * (0.1 * 3_f64.sqrt() * noise(&mut state)).exp();
+            if wo.z > 0.1 {
+                let f = prepared.eval_with_surface(wo, wi) * (0.1 * 3_f64.sqrt() * noise(&mut state)).exp();
                 text += &format!("{light:.17} {x:.17} {y:.17} {f:.17e}\n");
             }
         }
     }
-    Brdf::parse(text.as_bytes(), "tape.dat", Cosine::AsStated).unwrap()
+    text
+}
+
+fn brdf_of(tape: &Sheeting) -> Brdf {
+    Brdf::parse(text_of(tape).as_bytes(), "tape.dat", Cosine::AsStated).unwrap()
+}
+
+fn options() -> FitOptions {
+    FitOptions { isotropic: true, diffuse: true, tolerance: 0.4, ..FitOptions::default() }
+}
+
+#[test]
+fn lobes_base_and_coat_are_found_where_they_are_measured() {
+    let brdf = brdf_of(&tape());
+    let selection = Selection { count: 400, ..Selection::default() };
+    let found = brdf.fit(&selection, Apertures::both_deg(0.0), &options()).unwrap();
+    let sheeting = &found.fit.sheeting;
+    // 10 % of noise over some hundred samples each.
+    let near = |a: f64, b: f64| (a / b - 1.0).abs() < 0.03;
+    assert!(near(sheeting.coat_ior.unwrap(), 1.5) && near(sheeting.coat_roughness, 0.05), "{sheeting:?}");
+    assert!(near(sheeting.diffuse, 0.2), "{sheeting:?}");
+    let mut widths: Vec<f64> = sheeting.lobes.iter().map(|lobe| lobe.roughness[0]).collect();
+    widths.sort_by(f64::total_cmp);
+    assert!(near(widths[0], 0.02) && near(widths[1], 0.07), "{sheeting:?}");
+    assert!(found.fit.acceptable && found.parts.len() == 4, "{:?}", found.parts);
+    for part in &found.parts {
+        assert!(part.metrics.log_rmse < 0.11 && part.metrics.outliers(0.4) == 0, "{part:?}");
+    }
+    assert_eq!(found.parts[3].metrics.count, brdf.samples.len());
+    assert!(
+        !found.fit.warnings.iter().any(|warning| warning.contains("not met")),
+        "{:?}",
+        found.fit.warnings
+    );
+
+    // Whoever wants another index is told that the peak is not that one's.
+    let other = FitOptions { coat_ior: Some(3.5), ..options() };
+    let found = brdf.fit(&selection, Apertures::both_deg(0.0), &other).unwrap();
+    assert_eq!(found.fit.sheeting.coat_ior, Some(3.5));
+    let said =
+        |warning: &String| warning.starts_with("the mirror peak is not met: within 20 deg of the mirror");
+    assert!(found.fit.warnings.iter().any(said), "{:?}", found.fit.warnings);
+}
+
+#[test]
+fn a_tape_without_a_mirror_peak_has_no_coat_and_a_diffuse_surface_no_fit() {
+    let selection = Selection { count: 400, ..Selection::default() };
+    let fit = |tape: &Sheeting| brdf_of(tape).fit(&selection, Apertures::both_deg(0.0), &options());
+    let dull = fit(&Sheeting { coat_ior: None, ..tape() }).unwrap().fit;
+    assert!(dull.acceptable && dull.form.coat_ior.is_none() && dull.sheeting.coat_roughness == 0.0);
+    let error = fit(&Sheeting { coat_ior: None, lobes: Vec::new(), ..tape() }).unwrap_err();
+    assert_eq!(
+        error.to_string(),
+        "no lobe stands out of the values near the retro direction: they are those of a diffuse surface"
+    );
 }
 
 /// An aperture that is small beside the lobe changes little, and so does one that is a tenth of a degree
 /// wider.
 #[test]
 fn fits_change_smoothly_with_the_aperture() {
-    let brdf = tape();
+    let brdf = brdf_of(&Sheeting { coat_ior: None, ..tape() });
     let selection = Selection { count: 300, ..Selection::default() };
     let mut before: Option<f64> = None;
     for tenths in 0..=20 {
         let apertures = Apertures::both_deg(0.1 * f64::from(tenths)).rule_of_degree(7).unwrap();
         let rows = selection.observations(&brdf, &apertures);
-        let options = FitOptions {
-            lobes: Some(2),
-            entrance: Some(EntranceKind::Power),
-            isotropic: true,
-            diffuse: true,
-            tolerance: 0.4,
-            ..FitOptions::default()
-        };
+        let options = FitOptions { lobes: Some(2), entrance: Some(EntranceKind::Power), ..options() };
         let found = fit(&rows, &options).unwrap();
         // The noise, and at 2 degrees what a blurred model makes of data that are not.
         assert!(found.acceptable && found.rms < 0.105, "{tenths}: {}", found.rms);
@@ -295,4 +358,27 @@ fn metrics_are_what_they_say() {
     let off = metrics([(1.1, 1.0), (11.0, 10.0), (f64::NAN, 3.0)]).unwrap();
     assert!((off.log_rmse - 1.1_f64.ln()).abs() < 1e-12 && off.count == 2);
     assert!((off.nrmse - (0.505_f64).sqrt() / 9.0).abs() < 1e-12, "{off:?}");
+    assert!((off.percentile_95() - 0.1).abs() < 1e-12 && (off.worst() - 0.1).abs() < 1e-12);
+}
+
+/// Root mean square, 95 % and outliers each refuse on their own.
+#[test]
+fn errors_are_accepted_up_to_those_of_a_normal_distribution() {
+    // So many values off by so many times the tolerance; alternating values, so that there is a range.
+    let judged = |groups: &[(usize, f64)]| {
+        let errors = groups.iter().flat_map(|&(count, error)| std::iter::repeat_n(error, count));
+        let pairs = errors.enumerate().map(|(i, error)| {
+            let value = 1.0 + (i % 2) as f64;
+            (value * (0.4 * error).exp(), value)
+        });
+        metrics(pairs).unwrap()
+    };
+    assert!(judged(&[(950, 0.9), (48, -1.9), (2, 3.9)]).is_within(0.4));
+    assert!(!judged(&[(1000, 1.01)]).is_within(0.4));
+    assert!(!judged(&[(940, 0.1), (60, 2.1)]).is_within(0.4));
+    let faults = |count| judged(&[(1000 - count, 0.1), (count, -4.8)]);
+    assert!(faults(5).is_within(0.4) && !faults(6).is_within(0.4));
+    assert_eq!(faults(5).outliers(0.4), 5);
+    // A value that is 586 % off is an outlier of the default tolerance.
+    assert!(Metrics::outlying(0.4) < 5.86);
 }

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 
 use anyhow::bail;
 use catseye::Model;
-use catseye_photometry::brdf::Cosine;
+use catseye_photometry::brdf::{BrdfFitError, Cosine, Part};
 use catseye_photometry::fit::{EntranceKind, Fit, FitError, FitOptions, Observation, fit};
 use catseye_photometry::half_power::roughness_from_half_power_angle;
 use catseye_photometry::{Apertures, Colour, MaterialText, to_mtlx};
@@ -26,8 +26,6 @@ use crate::report::Stream;
 
 /// Percent by which a model of a measured BRDF may be off on average: what three lobes make of real tapes.
 const BRDF_TOLERANCE: f64 = 40.0;
-/// Degree of the aperture's rule for measured BRDFs.
-const BRDF_RULE: usize = 7;
 
 /// Fit a material to coefficients of retro-reflection, of a CSV table or of a standard's class
 ///
@@ -59,8 +57,8 @@ pub(crate) struct Args {
     /// How the strength depends on the entrance angle
     #[arg(long, value_enum, default_value_t)]
     entrance: Entrance,
-    /// The worst error that is accepted, in percent; of a measured BRDF the root mean square [default: 5, of
-    /// a BRDF 40]
+    /// The worst error that is accepted, in percent; of a measured BRDF the root mean square, where 95 % of
+    /// the samples may be twice and every one four times as far off, in logarithms [default: 5, of a BRDF 40]
     #[arg(long, value_name = "PERCENT")]
     tolerance: Option<f64>,
     /// Meet minima as lower limits instead of as values
@@ -72,7 +70,8 @@ pub(crate) struct Args {
     /// Luminance factor Y by day (45/0), for the diffuse base
     #[arg(long, value_name = "Y")]
     luminance_factor: Option<f64>,
-    /// Put a clear coat of this index of refraction over the lobes
+    /// Put a clear coat of this index of refraction over the lobes; a measured BRDF with a mirror peak has
+    /// one anyway
     #[arg(long, value_name = "IOR", num_args = 0..=1, default_missing_value = "1.5")]
     coat: Option<f64>,
     /// Colour of the tint, a name or linear Rec. 709 [default: what the rows name]
@@ -84,8 +83,9 @@ pub(crate) struct Args {
     /// Full angle of the instrument's source and receiver apertures in degrees
     #[arg(long, value_name = "DEG", default_value_t = 0.0)]
     aperture_deg: f64,
-    /// Whether the values of an ALTA file include the receiver's cosine [default: what its header says]
-    #[arg(long, value_name = "BOOL", num_args = 0..=1, default_missing_value = "true")]
+    /// Whether the values of an ALTA file include the receiver's cosine [default: what its header says,
+    /// where the values of exchanged directions don't speak against it]
+    #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true")]
     cosine: Option<bool>,
     /// Lobe model
     #[arg(long, value_enum, default_value_t)]
@@ -126,6 +126,9 @@ enum FitModel {
 struct Job {
     subject: Subject,
     observations: Vec<Observation>,
+    apertures: Apertures,
+    /// How good the fit is in the regions of a measured BRDF.
+    parts: Vec<Part>,
     options: FitOptions,
     colour: Colour,
     material: Option<Output>,
@@ -134,7 +137,7 @@ struct Job {
 
 impl Args {
     pub(crate) fn run(&self) -> anyhow::Result<()> {
-        let job = self.job()?;
+        let mut job = self.job()?;
         let (found, beside) = job.fit()?;
         let outcome = job.outcome(&found, beside.as_ref());
         if let Some(file) = &job.page {
@@ -170,7 +173,8 @@ impl Args {
             tolerance: 0.01 * self.tolerance.unwrap_or(if subject.is_brdf() { BRDF_TOLERANCE } else { 5.0 }),
             ..options
         };
-        Ok(Job { subject, observations, options, colour, material, page })
+        let apertures = Apertures::both_deg(self.aperture_deg);
+        Ok(Job { subject, observations, apertures, parts: Vec::new(), options, colour, material, page })
     }
 
     /// The material's file and the report's.
@@ -231,9 +235,7 @@ impl Args {
         if let Some(value) = self.luminance_factor {
             subject.add_luminance_factor(value)?;
         }
-        let apertures = Apertures::both_deg(self.aperture_deg);
-        // A BRDF's samples are many, and its lobes wide beside any sensible aperture.
-        let rule = if subject.is_brdf() { apertures.rule_of_degree(BRDF_RULE) } else { apertures.rule() }?;
+        let rule = Apertures::both_deg(self.aperture_deg).rule()?;
         subject.observations(self.at_least, self.area_m2, &rule)
     }
 
@@ -256,22 +258,37 @@ impl Args {
 
 impl Job {
     /// The fit, and for comparison that of the other model.
-    fn fit(&self) -> anyhow::Result<(Fit, Option<Fit>)> {
+    fn fit(&mut self) -> anyhow::Result<(Fit, Option<Fit>)> {
         let _progress = Progress::unknown("fitting");
-        let found = fit(&self.observations, &self.options).map_err(|error| match error {
-            // An option's fault, not the table's.
-            FitError::Option { .. } => anyhow::Error::from(error),
-            _ => anyhow::Error::from(error).context(self.subject.name.clone()),
-        })?;
         let other = FitOptions { model: Model::BackVector, roughness: None, ..self.options };
         let is_other = self.options.model == Model::BackVector;
+        if let Some(brdf) = self.subject.brdf() {
+            let selection = self.subject.selection();
+            let of = |options| brdf.fit(&selection, self.apertures, options);
+            let found = of(&self.options).map_err(|error| match error {
+                BrdfFitError::Fit(error) => self.failure(error),
+                error => error.into(),
+            })?;
+            let beside = if is_other { None } else { of(&other).ok().map(|other| other.fit) };
+            (self.observations, self.parts) = (found.observations, found.parts);
+            return Ok((found.fit, beside));
+        }
+        let found = fit(&self.observations, &self.options).map_err(|error| self.failure(error))?;
         let beside = if is_other { None } else { fit(&self.observations, &other).ok() };
         Ok((found, beside))
     }
 
+    /// What is wrong, with the name of the data where it is their fault.
+    fn failure(&self, error: FitError) -> anyhow::Error {
+        match error {
+            FitError::Option { .. } => error.into(),
+            _ => anyhow::Error::from(error).context(self.subject.name.clone()),
+        }
+    }
+
     fn outcome<'a>(&'a self, fit: &'a Fit, beside: Option<&'a Fit>) -> Outcome<'a> {
-        let Self { subject, observations, .. } = self;
-        Outcome { subject, observations, fit, beside, tolerance: self.options.tolerance }
+        let Self { subject, observations, parts, .. } = self;
+        Outcome { subject, observations, parts, fit, beside, tolerance: self.options.tolerance }
     }
 
     /// Where text goes: not between the lines of a file.

@@ -2,7 +2,7 @@
 
 use std::fmt::Write as _;
 
-use catseye_photometry::brdf::{Metrics, metrics};
+use catseye_photometry::brdf::{Metrics, Part, Region};
 use catseye_photometry::fit::{Aim, EntranceKind, Fault, Fit, Form, Observation};
 use catseye_photometry::half_power::half_power_angle;
 use catseye_photometry::significant;
@@ -17,6 +17,8 @@ pub(crate) struct Outcome<'a> {
     pub(crate) subject: &'a Subject,
     /// The same as the fit saw it.
     pub(crate) observations: &'a [Observation],
+    /// How good the fit is in the regions of a measured BRDF.
+    pub(crate) parts: &'a [Part],
     /// The fit.
     pub(crate) fit: &'a Fit,
     /// The same table fitted with the back-vector lobe.
@@ -31,6 +33,14 @@ impl Outcome<'_> {
         let (rows, worst, rms) = (self.observations.len(), percent(self.fit.worst), percent(self.fit.rms));
         let word = if self.fit.acceptable { "accepted" } else { "not accepted" };
         let tolerance = percent(self.tolerance);
+        if let Some(metrics) = self.metrics() {
+            let (count, most) = (metrics.count, percent(metrics.percentile_95()));
+            return format!(
+                "{word}: rms of the {count} samples around the incident direction {rms}, 95 % of them within {most}, \
+                 {}, tolerance {tolerance}",
+                self.all_but(metrics)
+            );
+        }
         let limits =
             self.observations.iter().zip(&self.fit.ratios).filter(|(row, _)| row.aim == Aim::AtLeast);
         let spare = limits.map(|(_, ratio)| ratio - 1.0).reduce(f64::max);
@@ -39,17 +49,33 @@ impl Outcome<'_> {
         format!("{word}: worst of {rows} values {worst} off, rms {rms}, tolerance {tolerance}{spare}")
     }
 
-    /// How good the model of a measured BRDF is.
-    pub(crate) fn metrics(&self) -> Option<Metrics> {
-        let pairs = self.observations.iter().zip(&self.fit.ratios);
-        let found = metrics(pairs.map(|(row, ratio)| (row.value * ratio, row.value)));
-        found.filter(|_| self.subject.is_brdf())
+    /// How good the model of a measured BRDF is around the incident direction.
+    fn metrics(&self) -> Option<&Metrics> {
+        let part = self.parts.iter().find(|part| part.region == Region::Retro)?;
+        Some(&part.metrics)
     }
 
-    /// The same in words.
-    pub(crate) fn accuracy(&self) -> Option<String> {
-        let Metrics { nrmse, log_rmse, count } = self.metrics()?;
-        Some(format!("of {count} samples: NRMSE {nrmse:.4}, log-RMSE {log_rmse:.3}"))
+    /// How good the model of a measured BRDF is in each of its regions.
+    pub(crate) fn accuracy(&self) -> impl Iterator<Item = String> {
+        self.parts.iter().map(|Part { name, metrics, .. }| {
+            format!(
+                "{name}: {} samples, log-RMSE {:.3}, NRMSE {:.4}, 95 % of them within {}, {}",
+                metrics.count,
+                metrics.log_rmse,
+                metrics.nrmse,
+                percent(metrics.percentile_95()),
+                self.all_but(metrics),
+            )
+        })
+    }
+
+    /// How many samples of a measured BRDF are no outliers.
+    fn all_but(&self, metrics: &Metrics) -> String {
+        let limit = percent(Metrics::outlying(self.tolerance));
+        match metrics.outliers(self.tolerance) {
+            0 => format!("all within {}", percent(metrics.worst())),
+            outliers => format!("all but {outliers} within {limit}"),
+        }
     }
 
     /// Why the tolerance can't be met, where that is known.
@@ -75,11 +101,11 @@ impl Outcome<'_> {
     /// What the back-vector lobe makes of the same table.
     pub(crate) fn comparison(&self) -> Option<String> {
         let beside = self.beside?;
-        Some(format!(
-            "beside it, back-vector GGX: {}, worst {} off",
-            describe(&beside.form),
-            percent(beside.worst)
-        ))
+        let how = match self.parts {
+            [] => format!("worst {} off", percent(beside.worst)),
+            _ => format!("rms {}", percent(beside.rms)),
+        };
+        Some(format!("beside it, back-vector GGX: {}, {how}", describe(&beside.form)))
     }
 
     /// What it costs that the entrance laws see the direction to the viewer only.
@@ -122,13 +148,21 @@ impl Outcome<'_> {
                 let _ = writeln!(text, "{name:<28} {:>8} deg", short(angle.to_degrees()));
             }
         }
+        if let Some(roughness) = self.coat_roughness() {
+            let _ = writeln!(text, "{:<28} {:>12}", "coat roughness", short(roughness));
+        }
         self.rows(&mut text);
         let _ = write!(text, "\n{}", self.verdict());
-        let more = [self.accuracy(), self.why_not(), self.comparison(), self.reciprocity(), self.fault()];
-        for line in more.into_iter().flatten().chain(self.warnings()) {
+        let more = [self.why_not(), self.comparison(), self.reciprocity(), self.fault()];
+        for line in self.accuracy().chain(more.into_iter().flatten()).chain(self.warnings()) {
             let _ = write!(text, "\n{line}");
         }
         text
+    }
+
+    /// Roughness of the coat that a mirror peak has.
+    fn coat_roughness(&self) -> Option<f64> {
+        Some(self.fit.sheeting.coat_roughness).filter(|roughness| *roughness > 0.0)
     }
 
     /// The values one by one.
@@ -183,6 +217,13 @@ impl Outcome<'_> {
                 "worst": fit.worst, "rms": fit.rms,
             })
         });
+        let part = |Part { name, metrics, .. }: &Part| {
+            json!({
+                "region": name, "samples": metrics.count, "log_rmse": metrics.log_rmse, "nrmse": metrics.nrmse,
+                "percentile_95": metrics.percentile_95(), "worst": metrics.worst(),
+                "outliers": metrics.outliers(self.tolerance),
+            })
+        };
         json!({
             "name": self.subject.name, "title": self.subject.title, "form": describe(&self.fit.form),
             "accepted": self.fit.acceptable, "tolerance": self.tolerance,
@@ -191,6 +232,8 @@ impl Outcome<'_> {
             "rows": self.subject.rows.iter().zip(&self.fit.ratios).map(row).collect::<Vec<_>>(),
             "reciprocity_cost": self.fit.reciprocity_cost(self.observations), "fault": self.fault(),
             "nrmse": self.metrics().map(|m| m.nrmse), "log_rmse": self.metrics().map(|m| m.log_rmse),
+            "coat_ior": self.fit.form.coat_ior, "coat_roughness": self.coat_roughness(),
+            "regions": self.parts.iter().map(part).collect::<Vec<_>>(),
             "remarks": self.subject.remarks, "why_not": self.why_not(), "back_vector": beside,
             "warnings": self.fit.warnings,
         })
@@ -211,7 +254,7 @@ pub(crate) fn describe(form: &Form) -> String {
         (EntranceKind::Bend, _) => " and a power for each",
     };
     let base = if form.diffuse { ", a diffuse base" } else { "" };
-    let coat = form.coat_ior.map_or(String::new(), |ior| format!(", a clear coat of index {ior}"));
+    let coat = form.coat_ior.map_or(String::new(), |ior| format!(", a clear coat of index {}", short(ior)));
     format!("{lobes}{entrance}{own}{base}{coat}")
 }
 

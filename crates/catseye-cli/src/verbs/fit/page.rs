@@ -27,9 +27,9 @@ pub(crate) fn page(outcome: &Outcome<'_>) -> anyhow::Result<String> {
     );
     let class = if fit.acceptable { "good" } else { "off" };
     let _ = writeln!(html, "<p class=\"{class}\">{}</p>", escaped(&outcome.verdict()));
-    let said = [outcome.accuracy(), outcome.why_not(), outcome.reciprocity(), outcome.fault()];
+    let said = [outcome.why_not(), outcome.reciprocity(), outcome.fault()];
     let remarks = outcome.subject.remarks.iter().chain(&fit.warnings).cloned();
-    for line in said.into_iter().flatten().chain(remarks) {
+    for line in outcome.accuracy().chain(said.into_iter().flatten()).chain(remarks) {
         let _ = writeln!(html, "<p>{}</p>", escaped(&line));
     }
     html.push_str(&curves(outcome, fit, "retro_reflective_bsdf")?);

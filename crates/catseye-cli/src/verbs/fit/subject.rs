@@ -7,7 +7,7 @@ use catseye_photometry::brdf::{Brdf, Cosine, Selection};
 use catseye_photometry::fit::{Aim, Observation};
 use catseye_photometry::openmaterial::{Assumption, OpenMaterial};
 use catseye_photometry::standards::StandardClass;
-use catseye_photometry::{ApertureRule, Colour, Limit, Quantity, Row, Table};
+use catseye_photometry::{ApertureRule, Colour, Error, Limit, Quantity, Row, Table};
 
 use crate::failure::Usage;
 use crate::instrument::table;
@@ -63,12 +63,16 @@ impl Subject {
     }
 
     fn of_brdf(path: &Path, cosine: Cosine) -> anyhow::Result<Self> {
-        let brdf = Brdf::read(path, cosine)?;
+        let brdf = Brdf::read(path, cosine).map_err(|error| match error {
+            Error::Cosine { found, .. } if found.included => anyhow!("{error}; --cosine reads them so"),
+            Error::Cosine { .. } => anyhow!("{error}; --cosine=false reads them so"),
+            _ => error.into(),
+        })?;
         let (name, mut remarks) = (brdf.name.clone(), brdf.remarks.clone());
         let skipped = brdf.skipped.invalid + brdf.skipped.below_horizon;
         if skipped > 0 {
             remarks.push(format!(
-                "{skipped} samples are negative, not finite or below the surface, and left out"
+                "{skipped} samples are negative, not finite, above 1e9/sr or below the surface, and left out"
             ));
         }
         Ok(Self { title: name.clone(), name, rows: Vec::new(), brdf: Some(brdf), roughness: None, remarks })
@@ -111,8 +115,14 @@ impl Subject {
         measured.or_else(named).unwrap_or(Colour::WHITE)
     }
 
-    fn selection(&self) -> Selection {
+    /// What of a measured BRDF is fitted.
+    pub(crate) fn selection(&self) -> Selection {
         Selection { count: BRDF_SAMPLES, ..Selection::default() }
+    }
+
+    /// The measured BRDF, where it is one.
+    pub(crate) fn brdf(&self) -> Option<&Brdf> {
+        self.brdf.as_ref()
     }
 
     /// Whether the values are those of a measured BRDF.
@@ -150,9 +160,6 @@ impl Subject {
         area_m2: Option<f64>,
         apertures: &ApertureRule,
     ) -> anyhow::Result<Vec<Observation>> {
-        if let Some(brdf) = &self.brdf {
-            return Ok(self.selection().observations(brdf, apertures));
-        }
         let observation = |row: &Row| {
             let aim = match (row.limit, limits) {
                 (Limit::Minimum, true) => Aim::AtLeast,
