@@ -70,8 +70,8 @@ impl Brdf {
         let mut warnings = Vec::new();
         if base.is_empty() {
             warnings.push(
-                "no sample is 30 deg away from both the incident and the mirror direction: the base is what the \
-                 lobes leave"
+                "no sample is 30 deg away from both the incident and the mirror direction: the base is \
+                 what the lobes leave"
                     .to_owned(),
             );
         }
@@ -113,7 +113,8 @@ fn without_coat(rows: Vec<Observation>, coat: Option<Coat>) -> Vec<Observation> 
     let Some(surface) = surface else { return rows };
     let less = |row: Observation| {
         let reflected = surface.mean(&row);
-        (reflected < MOST_OF_COAT * row.value).then(|| Observation { value: row.value - reflected, ..row })
+        let value = row.value - reflected;
+        (reflected < MOST_OF_COAT * row.value).then_some(Observation { value, ..row })
     };
     rows.into_iter().filter_map(less).collect()
 }

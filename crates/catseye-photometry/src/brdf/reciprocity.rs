@@ -94,8 +94,8 @@ impl fmt::Display for Contradiction {
         };
         write!(
             f,
-            "{} pairs of exchanged directions are reciprocal within {right:.0} % if values are {right_is}, and within \
-             {wrong:.0} % if they are {wrong_is}, as they were read",
+            "{} pairs of exchanged directions are reciprocal within {right:.0} % if values are {right_is}, \
+             and within {wrong:.0} % if they are {wrong_is}, as they were read",
             self.pairs
         )
     }

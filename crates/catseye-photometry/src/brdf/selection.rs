@@ -51,7 +51,7 @@ impl BrdfSample {
     }
 
     /// Angle between the receiver and the mirror image of the source.
-    pub(super) fn from_mirror(&self) -> f64 {
+    pub(super) fn off_mirror(&self) -> f64 {
         Geometry { wo: self.wo, wi: Vec3::new(-self.wi.x, -self.wi.y, self.wi.z) }.observation()
     }
 }
@@ -79,7 +79,7 @@ impl Selection {
         let peak = brdf.samples.iter().map(BrdfSample::luminance).fold(0.0, f64::max);
         let (cosine, floor, reach) = (self.zenith.cos(), self.floor * peak, self.observation);
         brdf.samples.iter().filter(move |sample| {
-            let (retro, mirror) = (sample.observation(), sample.from_mirror());
+            let (retro, mirror) = (sample.observation(), sample.off_mirror());
             let own = match region {
                 Region::File => return sample.luminance() > 0.0,
                 Region::Retro => retro <= reach,
@@ -99,12 +99,12 @@ impl Selection {
     /// Those above a value around the mirror direction.
     pub(super) fn of_mirror<'a>(&self, brdf: &'a Brdf, least: f64) -> Vec<&'a BrdfSample> {
         let samples = self.samples(brdf, Region::Mirror).filter(|sample| sample.luminance() > least);
-        evenly(samples, BrdfSample::from_mirror, self.count)
+        evenly(samples, BrdfSample::off_mirror, self.count)
     }
 
     /// Those that are 30 degrees away from both, a quarter as many at most: the base has one number.
     pub(super) fn of_base<'a>(&self, brdf: &'a Brdf) -> Vec<&'a BrdfSample> {
-        let away = |sample: &&BrdfSample| sample.observation().min(sample.from_mirror()) > AWAY;
+        let away = |sample: &&BrdfSample| sample.observation().min(sample.off_mirror()) > AWAY;
         let samples = self.samples(brdf, Region::Elsewhere).filter(away);
         evenly(samples, BrdfSample::observation, self.count.div_ceil(4))
     }

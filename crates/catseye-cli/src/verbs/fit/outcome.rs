@@ -36,8 +36,8 @@ impl Outcome<'_> {
         if let Some(metrics) = self.metrics() {
             let (count, most) = (metrics.count, percent(metrics.percentile_95()));
             return format!(
-                "{word}: rms of the {count} samples around the incident direction {rms}, 95 % of them within {most}, \
-                 {}, tolerance {tolerance}",
+                "{word}: rms of the {count} samples around the incident direction {rms}, 95 % of them within \
+                 {most}, {}, tolerance {tolerance}",
                 self.all_but(metrics)
             );
         }
