@@ -4,8 +4,8 @@ use clap::{Command, CommandFactory as _, FromArgMatches as _, Parser, Subcommand
 
 use crate::report;
 use crate::verbs::{
-    albedo, completions, eval, export, fit, furnace, man, materialx, measure, plot, render, roughness,
-    sample, standards,
+    albedo, completions, eval, export, fit, furnace, man, materialx, measure, optics, plot, render,
+    roughness, sample, standards,
 };
 
 /// The retro-reflective BSDF: evaluate it, sample it, plot it, render with it.
@@ -39,6 +39,7 @@ enum Verb {
     Roughness(roughness::Args),
     Plot(plot::Args),
     Materialx(materialx::Args),
+    Optics(optics::Args),
     Completions(completions::Args),
     Man(man::Args),
 }
@@ -67,6 +68,7 @@ impl Cli {
             Verb::Roughness(args) => args.run(),
             Verb::Plot(args) => args.run(),
             Verb::Materialx(args) => args.run(),
+            Verb::Optics(args) => args.run(),
             Verb::Completions(args) => args.run(command()),
             Verb::Man(args) => args.run(command()),
         }

@@ -92,6 +92,24 @@ Example:
   $ catseye export gltf materials/tape_fmvss108_c2_white.mtlx --entrances -4,5,20 -o tape.gltf
   $ catseye export openmaterial materials/sheeting.mtlx --tint 905=0.3 -o sheeting.xomp";
 
+/// Example of `catseye optics`.
+pub(crate) const OPTICS: &str = "\
+Example:
+  $ catseye optics cube -o cube.csv
+  wrote cube.csv (32 values)
+  $ catseye plot ra materials/sheeting.mtlx --standard cube.csv -o cube.svg
+  wrote cube.svg (960 x 640)";
+
+/// Example of `catseye optics bead`.
+pub(crate) const OPTICS_BEAD: &str = "\
+Example:
+  $ catseye optics bead --observation 0.2,0.5 --entrance 5 | cut -d, -f1-5";
+
+/// Example of `catseye optics cube`.
+pub(crate) const OPTICS_CUBE: &str = "\
+Example:
+  $ catseye optics cube --observation 0.2 --entrance 30 --rotation 0,30 | cut -d, -f1-6";
+
 /// The format of tables of values, and an example of `catseye measure`.
 pub(crate) fn measure() -> String {
     format!("{VALUES}\n\n{MEASURE}")

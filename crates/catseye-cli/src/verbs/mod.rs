@@ -9,6 +9,7 @@ pub(crate) mod furnace;
 pub(crate) mod man;
 pub(crate) mod materialx;
 pub(crate) mod measure;
+pub(crate) mod optics;
 pub(crate) mod plot;
 pub(crate) mod render;
 pub(crate) mod roughness;

@@ -18,6 +18,7 @@ mod measure;
 mod memory;
 mod messages;
 mod openmaterial;
+mod optics;
 mod pictures;
 mod plots;
 mod python;

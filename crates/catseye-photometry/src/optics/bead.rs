@@ -1,6 +1,7 @@
 //! Glass beads with a reflector behind them.
 
 use std::f64::consts::{FRAC_PI_2, PI};
+use std::fmt;
 
 use super::diffuse::DiffuseBack;
 use super::fresnel::transmitted;
@@ -200,6 +201,26 @@ impl Beads {
         let (Back::Specular(reflectance) | Back::Diffuse(reflectance)) = self.back;
         let [s, p] = transmitted(x, self.index / self.medium()).map(|power| power.powi(crossings));
         0.5 * reflectance * (s + p)
+    }
+}
+
+impl fmt::Display for Beads {
+    /// All numbers, without the signs that separate cells.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { index, diameter_um, spread, packing, .. } = *self;
+        write!(f, "beads of index {index} and {diameter_um} um (spread {spread}) ")?;
+        match self.mount {
+            Mount::Exposed => write!(f, "exposed")?,
+            Mount::Encapsulated { film, open } => write!(f, "encapsulated (film {film} open {open})")?,
+            Mount::Enclosed { medium, spacing, film } => {
+                write!(f, "enclosed in {medium} (spacing {spacing:.4} film {film})")?;
+            }
+        }
+        match self.back {
+            Back::Specular(reflectance) => write!(f, " mirror {reflectance}")?,
+            Back::Diffuse(reflectance) => write!(f, " diffuse {reflectance}")?,
+        }
+        write!(f, " packing {packing}")
     }
 }
 

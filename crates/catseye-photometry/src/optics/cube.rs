@@ -1,6 +1,7 @@
 //! Corner cubes: three faces at right angles in a transparent sheet.
 
 use std::f64::consts::{PI, TAU};
+use std::fmt;
 
 use nalgebra::{Complex, Matrix3, Vector2, Vector3};
 
@@ -130,6 +131,25 @@ fn normal([a, b, c, d]: [f64; 4]) -> [f64; 3] {
     let radius = |u: f64| (-2.0 * (1.0 - u).ln()).sqrt();
     let (sin, cos) = (TAU * b).sin_cos();
     [radius(a) * cos, radius(a) * sin, radius(c) * (TAU * d).cos()]
+}
+
+impl fmt::Display for Cubes {
+    /// All numbers, without the signs that separate cells.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self { index, leg_um, errors_arcmin: [a, b, c], error_sd_arcmin, fill, .. } = *self;
+        write!(f, "cubes of index {index} and {leg_um} um ")?;
+        match self.coating {
+            Coating::Metal(reflectance) => write!(f, "metal {reflectance}")?,
+            Coating::Air => write!(f, "total reflection")?,
+        }
+        write!(f, " errors {a} {b} {c} (spread {error_sd_arcmin}) arcmin ")?;
+        write!(f, "{} ", if self.pairs { "pairs" } else { "single" })?;
+        match self.azimuth_deg {
+            Some(azimuth) => write!(f, "azimuth {azimuth}")?,
+            None => write!(f, "all azimuths")?,
+        }
+        write!(f, " fill {fill}")
+    }
 }
 
 /// One cube of a sheet, angles in radians.

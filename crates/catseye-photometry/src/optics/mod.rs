@@ -15,6 +15,7 @@
 //! # Ok::<(), catseye_photometry::Error>(())
 //! ```
 
+mod angles;
 mod bead;
 mod cube;
 mod diffuse;
@@ -23,16 +24,12 @@ mod light;
 mod packing;
 mod polygon;
 
+pub use angles::{Angles, Computed, MAX_ENTRANCE_DEG, MAX_OBSERVATION_DEG};
 pub use bead::{Back, Beads, Mount, PreparedBeads};
 pub use cube::{Coating, Cubes, PreparedCubes};
 pub use light::Light;
 
 use crate::Error;
-
-/// The largest observation angle that is computed, in degrees: beyond, the scatter that is not modelled rules.
-pub const MAX_OBSERVATION_DEG: f64 = 20.0;
-/// The largest entrance and viewing angle that is computed, in degrees.
-pub const MAX_ENTRANCE_DEG: f64 = 85.0;
 
 /// Refuses a number that is not in its range; `range` says the range to people.
 fn within(name: &'static str, value: f64, legal: bool, range: &'static str) -> Result<(), Error> {
