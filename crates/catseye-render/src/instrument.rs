@@ -9,6 +9,7 @@ use catseye_materialx::Material;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
+use crate::integrator::Plan;
 use crate::light::AreaLight;
 use crate::sampler::Sampler;
 use crate::{Camera, Error, Mesh, Ray, Scene, SceneBuilder, integrator};
@@ -189,7 +190,10 @@ impl Retroreflectometer {
         let along = point - receiver;
         let squared = along.length_squared();
         let ray = Ray::new(receiver.as_vec3(), (along / squared.sqrt()).as_vec3());
-        let light = |depth| integrator::radiance(&setup.scene, ray, &mut sampler.clone(), depth).as_dvec3();
+        let light = |depth| {
+            let plan = Plan::unknown(depth);
+            integrator::radiance(&setup.scene, ray, &mut sampler.clone(), plan).as_dvec3()
+        };
         // Without scattering there is only what the specimen emits itself.
         let radiance = light(MAX_DEPTH) - light(0);
         // E_r is the integral of radiance cos cos / r^2 over the specimen's area A, which the quotient

@@ -3,15 +3,58 @@
 use glam::Vec3;
 
 use crate::bsdf::Shading;
+use crate::light::strength;
 use crate::sampler::Sampler;
 use crate::surface::Hit;
-use crate::{Ray, Scene};
+use crate::{Ray, RenderSettings, Scene};
 
 /// Surfaces that a ray may pass straight through between two scatterings.
 const MAX_PASSED: u32 = 64;
 /// The part of the probability of choosing a light that all lights share alike: no light is forgotten where
 /// the estimate of its importance is wrong.
 const UNIFORM_SHARE: f32 = 0.25;
+
+/// Paths that [`Plan::of`] tries.
+const PILOTS: u32 = 1024;
+
+/// What all paths of a picture go by.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Plan {
+    /// The most scatterings.
+    pub(crate) max_depth: u32,
+    /// About the radiance that scattered rays meet: what roulette expects of a path that goes on. 0 where
+    /// nobody knows.
+    expected: f32,
+}
+
+impl Plan {
+    /// For paths of which nothing is known.
+    pub(crate) fn unknown(max_depth: u32) -> Self {
+        Self { max_depth, expected: 0.0 }
+    }
+
+    /// Tries some paths, all over the picture and the same for each part of it.
+    pub(crate) fn of(scene: &Scene, settings: &RenderSettings) -> Self {
+        let size = [settings.width as f32, settings.height as f32];
+        let max_depth = settings.max_depth;
+        let endless = Self { max_depth, expected: f32::INFINITY };
+        let (mut sum, mut count) = (0.0, 0.0_f32);
+        for index in 0..PILOTS {
+            let mut sampler = Sampler::new([u32::MAX; 2], index, 0);
+            let [u, v, ..] = sampler.next_4d();
+            let ray = scene.camera().ray([u * size[0], v * size[1]], size);
+            let mut path = Path::new(scene, ray);
+            if path.step(&mut sampler, endless) {
+                let (direct, throughput) = (path.radiance, strength(path.throughput));
+                while path.step(&mut sampler, endless) {}
+                let met = strength(path.radiance - direct) / throughput;
+                sum += if met.is_finite() { met } else { 0.0 };
+                count += 1.0;
+            }
+        }
+        Self { max_depth, expected: sum / count.max(1.0) }
+    }
+}
 
 /// A path from the camera to where it has come.
 struct Path<'a> {
@@ -28,24 +71,22 @@ struct Path<'a> {
     pdf: Option<f32>,
 }
 
-/// The radiance that arrives along a camera ray over paths with at most `max_depth` scatterings.
-pub(crate) fn radiance(scene: &Scene, ray: Ray, sampler: &mut Sampler, max_depth: u32) -> Vec3 {
-    let mut path = Path {
-        scene,
-        origin: ray.origin,
-        ray,
-        throughput: Vec3::ONE,
-        radiance: Vec3::ZERO,
-        depth: 0,
-        pdf: None,
-    };
-    while path.step(sampler, max_depth) {}
+/// The radiance that arrives along a camera ray.
+pub(crate) fn radiance(scene: &Scene, ray: Ray, sampler: &mut Sampler, plan: Plan) -> Vec3 {
+    let mut path = Path::new(scene, ray);
+    while path.step(sampler, plan) {}
     if path.radiance.is_finite() { path.radiance } else { Vec3::ZERO }
 }
 
-impl Path<'_> {
+impl<'a> Path<'a> {
+    /// A path that begins with a camera ray.
+    fn new(scene: &'a Scene, ray: Ray) -> Self {
+        let [throughput, radiance] = [Vec3::ONE, Vec3::ZERO];
+        Self { scene, origin: ray.origin, ray, throughput, radiance, depth: 0, pdf: None }
+    }
+
     /// Goes on to the next scattering; false at the end of the path.
-    fn step(&mut self, sampler: &mut Sampler, max_depth: u32) -> bool {
+    fn step(&mut self, sampler: &mut Sampler, plan: Plan) -> bool {
         let hit = self.next_hit(sampler);
         if self.meet_lights(hit.as_ref()) {
             return false;
@@ -56,14 +97,14 @@ impl Path<'_> {
             // No light sampling looks for surfaces that glow: paths find them.
             self.add(self.throughput * material.emission, self.depth.saturating_sub(1));
         }
-        if self.depth >= max_depth {
+        if self.depth >= plan.max_depth {
             return false;
         }
         self.throughput *= hit.color;
         let shading = material.bsdf.at(hit.frame, -self.ray.direction, hit.inside);
         self.sample_lights(&hit, &shading, sampler);
         self.depth += 1;
-        self.scatter(&hit, &shading, sampler)
+        self.scatter(&hit, &shading, sampler, plan.expected)
     }
 
     /// The next surface that doesn't let the ray pass.
@@ -181,15 +222,16 @@ impl Path<'_> {
     }
 
     /// Chooses the next direction; false if the path ends here.
-    fn scatter(&mut self, hit: &Hit, shading: &Shading<'_>, sampler: &mut Sampler) -> bool {
+    fn scatter(&mut self, hit: &Hit, shading: &Shading<'_>, sampler: &mut Sampler, expected: f32) -> bool {
         let Some(sample) = shading.sample(sampler.next_4d()) else { return false };
         if !sides_agree(hit, sample.wi) {
             return false;
         }
         self.throughput *= sample.weight;
-        // Russian roulette: a path that counts for less goes on more rarely. The root keeps rare survivors
-        // from counting too much.
-        let survival = self.throughput.max_element().min(1.0).sqrt();
+        // Russian roulette: a path that is not expected to bring as much as it has brought goes on more
+        // rarely. The root keeps rare survivors from counting too much.
+        let share = (expected / self.radiance.max_element().max(f32::MIN_POSITIVE)).max(1.0);
+        let survival = (self.throughput.max_element() * share).min(1.0).sqrt();
         if survival < 1.0 {
             if sampler.next_4d()[0] >= survival {
                 return false;

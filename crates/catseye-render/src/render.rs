@@ -6,7 +6,8 @@ use glam::Vec3;
 use rayon::prelude::*;
 
 use crate::sampler::Sampler;
-use crate::{Error, Filter, Image, Scene, integrator};
+use crate::integrator::{self, Plan};
+use crate::{Error, Filter, Image, Scene};
 
 /// Side of the squares of pixels that threads work on.
 const TILE: usize = 16;
@@ -91,11 +92,12 @@ fn render_tiles(scene: &Scene, settings: &RenderSettings, progress: &(dyn Fn(f32
     let columns = settings.width.div_ceil(TILE);
     let count = columns * settings.height.div_ceil(TILE);
     let done = AtomicUsize::new(0);
+    let plan = Plan::of(scene, settings);
     let tiles: Vec<Image> = (0..count)
         .into_par_iter()
         .with_max_len(1)
         .map(|i| {
-            let tile = render_tile(scene, settings, [i % columns * TILE, i / columns * TILE]);
+            let tile = render_tile(scene, settings, plan, [i % columns * TILE, i / columns * TILE]);
             progress((done.fetch_add(1, Ordering::Relaxed) + 1) as f32 / count as f32);
             tile
         })
@@ -107,12 +109,12 @@ fn render_tiles(scene: &Scene, settings: &RenderSettings, progress: &(dyn Fn(f32
     image
 }
 
-fn render_tile(scene: &Scene, settings: &RenderSettings, [left, top]: [usize; 2]) -> Image {
+fn render_tile(scene: &Scene, settings: &RenderSettings, plan: Plan, [left, top]: [usize; 2]) -> Image {
     let (width, height) = (TILE.min(settings.width - left), TILE.min(settings.height - top));
-    Image::from_fn(width, height, |x, y| render_pixel(scene, settings, [left + x, top + y]))
+    Image::from_fn(width, height, |x, y| render_pixel(scene, settings, plan, [left + x, top + y]))
 }
 
-fn render_pixel(scene: &Scene, settings: &RenderSettings, pixel: [usize; 2]) -> [f32; 3] {
+fn render_pixel(scene: &Scene, settings: &RenderSettings, plan: Plan, pixel: [usize; 2]) -> [f32; 3] {
     let size = [settings.width as f32, settings.height as f32];
     let mut sum = Vec3::ZERO;
     for index in 0..settings.spp {
@@ -123,7 +125,7 @@ fn render_pixel(scene: &Scene, settings: &RenderSettings, pixel: [usize; 2]) -> 
             pixel[1] as f32 + 0.5 + settings.filter.sample(v),
         ];
         let ray = scene.camera().ray(position, size);
-        sum += integrator::radiance(scene, ray, &mut sampler, settings.max_depth);
+        sum += integrator::radiance(scene, ray, &mut sampler, plan);
     }
     (sum / settings.spp as f32).into()
 }
