@@ -61,7 +61,7 @@ fn under_a_sky() -> Result<Scene, Error> {
 
 /// Processor time that this process has taken.
 fn processor_seconds() -> f64 {
-    /// USER_HZ, the unit of /proc: proc_pid_stat(5).
+    /// `USER_HZ`, the unit of /proc: `proc_pid_stat(5)`.
     const TICKS: f64 = 100.0;
     let stat = fs::read_to_string("/proc/self/stat").unwrap_or_default();
     // User and system time are the fields 14 and 15; the 2nd, in brackets, may have spaces.

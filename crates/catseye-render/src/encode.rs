@@ -66,7 +66,7 @@ pub fn encode_exr(image: &Image, info: &PictureInfo) -> Result<Vec<u8>, Error> {
     let comments = [info.command.as_str(), info.units.as_str()].map(str::trim);
     let comments = comments.into_iter().filter(|line| !line.is_empty()).collect::<Vec<_>>().join("\n");
     let mut attributes = LayerAttributes {
-        software_name: Some(text(concat!("catseye ", env!("CARGO_PKG_VERSION")))),
+        software_name: Some(software()),
         comments: (!comments.is_empty()).then(|| text(&comments)),
         ..LayerAttributes::default()
     };
@@ -87,14 +87,19 @@ pub fn encode_exr(image: &Image, info: &PictureInfo) -> Result<Vec<u8>, Error> {
 }
 
 /// Primaries and white of ITU-R BT.709-6, item 1.3.
-const REC_709: Chromaticities = Chromaticities {
+pub(crate) const REC_709: Chromaticities = Chromaticities {
     red: Vec2(0.64, 0.33),
     green: Vec2(0.30, 0.60),
     blue: Vec2(0.15, 0.06),
     white: Vec2(0.3127, 0.3290),
 };
 
+/// What the attribute `software` says.
+pub(crate) fn software() -> Text {
+    text(concat!("catseye ", env!("CARGO_PKG_VERSION")))
+}
+
 /// The format's texts are bytes; UTF-8 is what they are read as.
-fn text(text: &str) -> Text {
+pub(crate) fn text(text: &str) -> Text {
     Text::from_slice_unchecked(text.as_bytes())
 }

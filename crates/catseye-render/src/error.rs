@@ -64,6 +64,45 @@ pub enum Error {
         /// What does not fit.
         problem: String,
     },
+    /// A region that is empty or not inside the picture.
+    #[error("the region {region} is empty or not inside the picture of {} x {} pixels", size[0], size[1])]
+    Region {
+        /// The region.
+        region: crate::Region,
+        /// Columns and rows of the picture.
+        size: [usize; 2],
+    },
+    /// Samples of another picture.
+    #[error("it is another picture: different {difference}")]
+    OtherPicture {
+        /// What differs.
+        difference: String,
+    },
+    /// Nothing to merge.
+    #[error("there are no parts to merge")]
+    NoParts,
+    /// Parts that don't fit together.
+    #[error("parts {} and {}: {problem}", parts[0], parts[1])]
+    Parts {
+        /// Their numbers, from 0; twice the same for a problem of one.
+        parts: [usize; 2],
+        /// What is wrong with them, a verb in front.
+        problem: String,
+    },
+    /// Samples that no part has.
+    #[error("no part has the samples {}..{} of the pixel in column {} and row {}", samples.start, samples.end, pixel[0], pixel[1])]
+    Gap {
+        /// Which samples.
+        samples: std::ops::Range<u32>,
+        /// Column and row of the first such pixel.
+        pixel: [usize; 2],
+    },
+    /// A file that is no part of a picture.
+    #[error("{reason}")]
+    Part {
+        /// What is wrong with it.
+        reason: String,
+    },
     /// The worker threads could not be started.
     #[error("cannot start {threads} threads: {reason}")]
     Threads {

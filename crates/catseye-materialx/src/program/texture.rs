@@ -3,6 +3,7 @@
 use std::{
     collections::HashMap,
     fmt,
+    hash::{DefaultHasher, Hasher as _},
     path::{Path, PathBuf},
     sync::Arc,
 };
@@ -196,7 +197,10 @@ impl Textures {
 impl fmt::Debug for Texture {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Layout { width, height, .. } = self.picture.layout;
-        write!(f, "Texture({width} x {height})")
+        // The numbers themselves would fill pages; two pictures that differ are told apart.
+        let mut hash = DefaultHasher::new();
+        hash.write(&self.picture.samples);
+        write!(f, "Texture({width} x {height}, {:?}, {:016x})", self.space, hash.finish())
     }
 }
 

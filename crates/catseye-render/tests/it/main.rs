@@ -9,6 +9,7 @@ mod examples;
 mod furnace;
 mod instrument;
 mod light_sampling;
+mod parts;
 mod retro;
 mod scenes;
 mod specimen;
