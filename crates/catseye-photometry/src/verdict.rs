@@ -260,8 +260,8 @@ impl fmt::Display for Verdict<'_> {
         let Row { observation_deg, entrance_deg, quantity, unit, .. } = row;
         write!(
             f,
-            " at {observation_deg} degree, entrance {entrance_deg} degree: {quantity} {found}, {bound} {asked} \
-             {unit}"
+            " at {observation_deg} degree, entrance {entrance_deg} degree: {quantity} {found}, {bound} \
+             {asked} {unit}"
         )?;
         if self.guard > 0.0 && standing != Standing::Fails {
             write!(f, " and {} % to spare", significant(100.0 * self.guard, DIGITS))?;

@@ -1,5 +1,6 @@
 //! Tables of photometric values: a file, standard input, or a standard's name.
 
+use std::fs::File;
 use std::io::{self, Read as _};
 use std::path::Path;
 
@@ -7,8 +8,8 @@ use anyhow::{Context as _, anyhow};
 use catseye_photometry::standards::{Catalogue, StandardClass};
 use catseye_photometry::{Error, Row, Table};
 
-/// Bytes after which a table on standard input is too large for the library, which says so.
-const LARGEST: u64 = 1 << 25;
+/// Bytes after which every kind of file is too large for the library, which says so.
+const LARGEST: u64 = 1 << 27;
 
 /// The angles that materials are measured at where none are given, in degrees: those of the standards for
 /// sheeting.
@@ -27,25 +28,27 @@ pub(crate) fn grid(observations_deg: &[f64], entrances_deg: &[f64]) -> anyhow::R
 }
 
 /// Reads values from a CSV file, or from standard input where it is `-`.
-pub(crate) fn read(path: &Path) -> anyhow::Result<Table> {
-    if path != Path::new("-") {
-        return Ok(Table::read_values(path)?);
-    }
-    Ok(Table::parse_values(&read_stdin()?, "<stdin>")?)
+fn read(path: &Path) -> anyhow::Result<Table> {
+    let (bytes, name) = bytes(path)?;
+    Ok(Table::parse_values(&bytes, &name)?)
 }
 
 /// Reads geometries from a CSV file, or from standard input where it is `-`.
 pub(crate) fn read_geometries(path: &Path) -> anyhow::Result<Table> {
-    if path != Path::new("-") {
-        return Ok(Table::read_geometries(path)?);
-    }
-    Ok(Table::parse_geometries(&read_stdin()?, "<stdin>")?)
+    let (bytes, name) = bytes(path)?;
+    Ok(Table::parse_geometries(&bytes, &name)?)
 }
 
-fn read_stdin() -> anyhow::Result<Vec<u8>> {
+/// The bytes of a file, or of standard input where it is `-`, and what errors call it.
+pub(crate) fn bytes(path: &Path) -> anyhow::Result<(Vec<u8>, String)> {
     let mut bytes = Vec::new();
-    io::stdin().lock().take(LARGEST).read_to_end(&mut bytes).context("<stdin>: can't be read")?;
-    Ok(bytes)
+    if path == Path::new("-") {
+        io::stdin().lock().take(LARGEST).read_to_end(&mut bytes).context("<stdin>: can't be read")?;
+        return Ok((bytes, "<stdin>".to_owned()));
+    }
+    let io = |source| Error::Io { path: path.to_owned(), source };
+    File::open(path).map_err(io)?.take(LARGEST).read_to_end(&mut bytes).map_err(io)?;
+    Ok((bytes, path.display().to_string()))
 }
 
 /// Whether a name is that of a table: a file or pipe that exists, a name that ends in `.csv`, or `-`.

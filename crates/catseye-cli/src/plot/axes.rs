@@ -91,9 +91,19 @@ pub(crate) fn roughness_label([u, v]: [f64; 2]) -> String {
 
 /// Multiples of 1, 2 or 5 times a power of ten up to `greatest`, about `count` of them, without 0.
 pub(crate) fn ticks(greatest: f64, count: f64) -> Vec<f64> {
-    let power = 10.0_f64.powf((greatest / count).log10().floor());
-    let step =
-        [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * power).find(|step| greatest / step <= count + 0.5);
-    let step = step.unwrap_or(10.0 * power);
+    let step = step(greatest, count);
     (1..).map(|i| f64::from(i) * step).take_while(|&value| value <= greatest * 1.000_001).collect()
+}
+
+/// The same between two numbers, with 0 where it lies between them.
+pub(crate) fn ticks_between([start, end]: [f64; 2], count: f64) -> Vec<f64> {
+    let step = step(end - start, count);
+    let [first, last] = [(start / step - 1e-6).ceil() as i32, (end / step + 1e-6).floor() as i32];
+    (first..=last).map(|i| f64::from(i) * step).collect()
+}
+
+fn step(range: f64, count: f64) -> f64 {
+    let power = 10.0_f64.powf((range / count).log10().floor());
+    let step = [1.0, 2.0, 5.0, 10.0].into_iter().map(|m| m * power).find(|step| range / step <= count + 0.5);
+    step.unwrap_or(10.0 * power)
 }

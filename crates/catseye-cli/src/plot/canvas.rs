@@ -1,7 +1,7 @@
 //! Lines and text on any of the drawing library's surfaces, in units that don't depend on its resolution.
 
 use plotters::coord::Shift;
-use plotters::element::{PathElement, Polygon};
+use plotters::element::{Circle, PathElement, Polygon};
 use plotters::prelude::{DrawingArea, DrawingBackend, RGBColor};
 use plotters::style::text_anchor::{HPos, Pos, VPos};
 use plotters::style::{Color as _, FontDesc, IntoFont as _, TextStyle};
@@ -68,6 +68,12 @@ where
     /// Fills a polygon.
     pub(crate) fn fill(&self, points: &[Point], color: RGBColor) -> anyhow::Result<()> {
         Ok(self.area.draw(&Polygon::new(self.pixels(points), color.filled()))?)
+    }
+
+    /// Fills a circle.
+    pub(crate) fn disk(&self, centre: Point, radius: f64, color: RGBColor) -> anyhow::Result<()> {
+        let radius = (radius * self.scale).round() as u32;
+        Ok(self.area.draw(&Circle::new(self.pixel(centre), radius, color.filled()))?)
     }
 
     /// Writes a text.

@@ -3,11 +3,13 @@
 pub(crate) mod albedo;
 pub(crate) mod axes;
 mod canvas;
+pub(crate) mod chart;
 pub(crate) mod curves;
 pub(crate) mod figure;
 pub(crate) mod furnace;
 pub(crate) mod lobe;
 mod polar;
 pub(crate) mod ra;
+pub(crate) mod residuals;
 pub(crate) mod sheet;
 pub(crate) mod spheres;

@@ -182,18 +182,153 @@ fn a_brdf_that_is_none_is_refused_in_one_line_that_says_why() {
     }
 }
 
-#[test]
-fn the_report_is_a_page_of_its_own() {
+/// The report of a fit that is run in a folder of its own with `table.csv`.
+fn report(table: &str, options: &str) -> String {
     let bench = Bench::new();
-    bench.write("sheet.csv", SHEET);
-    let fit = bench.catseye("fit sheet.csv --report sheet.html", "");
-    assert_eq!((fit.code, fit.stderr.as_str()), (0, ""));
-    let page = fs::read_to_string(bench.path("sheet.html")).unwrap();
-    assert_eq!(page.matches("<svg").count(), 2, "both models are drawn");
-    for part in ["<h2>Numbers</h2>", "<h2>Values</h2>", "back-vector", "accepted"] {
+    bench.write("table.csv", table);
+    let fit =
+        bench.shell(&format!("SOURCE_DATE_EPOCH=1700000000 catseye fit table.csv --report r.html {options}"));
+    assert!(fit.stderr.is_empty() || fit.code == 1, "{options}: {}", fit.stderr);
+    let page = fs::read_to_string(bench.path("r.html")).unwrap();
+    for foreign in ["src=", "href=\"http", "<script", "@import", "NaN", "url("] {
+        assert!(!page.contains(foreign), "{options}: {foreign}: the page needs nothing else");
+    }
+    page
+}
+
+#[test]
+fn the_report_says_what_a_client_asks() {
+    let measured = "observation_deg,entrance_deg,value,unit,uncertainty,instrument,illuminant,source\n\
+                    0.2,5,250,cd/lx/m2,3%,Gonio 7,A,lab\n0.5,5,95,cd/lx/m2,3%,Gonio 7,A,lab\n\
+                    0.2,30,150,cd/lx/m2,3%,Gonio 7,A,lab\n0.5,30,60,cd/lx/m2,3%,Gonio 7,A,lab\n";
+    let page = report(measured, "--colour yellow --name 'Lot 4' -o s.mtlx");
+    assert_eq!(
+        page.matches("<svg").count(),
+        3,
+        "over the observation and the entrance angle, and what is left"
+    );
+    let bench = Bench::new();
+    bench.write("table.csv", measured);
+    let digest = bench.shell("sha256sum table.csv | cut -d' ' -f1").stdout;
+    for part in [
+        "<h1>Lot 4</h1>",
+        "<b>Accepted</b>",
+        "2023-11-14 22:13:20 UTC",
+        concat!("catseye ", env!("CARGO_PKG_VERSION")),
+        "catseye fit table.csv --report r.html --colour yellow --name 'Lot 4' -o s.mtlx",
+        digest.trim(),
+        "Gonio 7",
+        "<td>A</td>",
+        "<td>lab</td>",
+        "<td>s.mtlx</td>",
+        "4 values of R_A, observation 0.2 to 0.5 deg, entrance 5 to 30 deg",
+        "Bars: one standard deviation of the value",
+        "black by day",
+        "ASTM D4956 Type III yellow",
+        "Not judged: luminance factor, colour, rotation",
+        "lobe 1 roughness",
+        "back-vector",
+        "@media print",
+    ] {
         assert!(page.contains(part), "{part}");
     }
-    assert!(!page.contains("src=") && !page.contains("href=\"http"), "nothing is fetched");
+    let order = ["<h1>", "<b>Accepted", "Please note", "<svg", "<h2>Standards", "<h2>Values", "<h2>Models"];
+    let places: Vec<_> = order.iter().map(|part| page.find(part).unwrap()).collect();
+    assert!(places.is_sorted(), "the answer comes first, the models last: {places:?}");
+    assert!(
+        page.contains("\u{25cf} value") && !page.contains("typical"),
+        "nobody said that values are typical"
+    );
+}
+
+#[test]
+fn a_report_can_be_made_again_byte_by_byte() {
+    assert_eq!(report(SHEET, ""), report(SHEET, ""));
+    let bench = Bench::new();
+    bench.write("table.csv", SHEET);
+    for date in ["yesterday", "-1", "99999999999999"] {
+        let fit = bench.shell(&format!("SOURCE_DATE_EPOCH={date} catseye fit table.csv --report r.html"));
+        assert_eq!(fit.code, 2, "{date}");
+        assert!(fit.stderr.contains("it must be seconds since 1970"), "{}", fit.stderr);
+    }
+    assert_eq!(bench.files(), ["table.csv"]);
+}
+
+/// What a table says is text, never markup; a report without a word of what it is of has the file's name.
+#[test]
+fn names_in_a_report_are_text() {
+    let rows = [("0.2", "5", 380), ("0.2", "30", 215), ("0.5", "5", 135), ("0.5", "30", 75)];
+    let table = |class: &str| {
+        let row = |(observation, entrance, value): &(&str, &str, i32)| {
+            format!("{observation},{entrance},{value},cd/lx/m2,{class},{class},{class},{class}\n")
+        };
+        let rows: String = rows.iter().map(row).collect();
+        format!("observation_deg,entrance_deg,value,unit,class,source,instrument,illuminant\n{rows}")
+    };
+    let page = report(&table("</h1><script>alert(1)</script>&<b>\"\"x"), "--name '<i>\"&amp;</title>'");
+    assert!(page.contains("&lt;/h1&gt;&lt;script&gt;alert(1)&lt;/script&gt;&amp;&lt;b&gt;"), "{page:.900}");
+    assert!(page.contains("<h1>&lt;i&gt;&quot;&amp;amp;&lt;/title&gt;</h1>"), "{page:.900}");
+    assert!(!page.contains("<b>x") && !page.contains("<i>"));
+    assert!(report(&table(""), "").contains("<h1>table.csv</h1>"));
+    assert!(report(&table("  "), "").contains("<h1>table.csv</h1>"));
+}
+
+#[test]
+fn a_report_replaces_a_file_whole_or_not_at_all() {
+    let bench = Bench::new();
+    bench.write("table.csv", SHEET);
+    bench.write("r.html", &"old ".repeat(100_000));
+    let fit = bench.catseye("fit table.csv --report r.html", "");
+    assert_eq!((fit.code, fit.stderr.as_str()), (0, ""));
+    let page = fs::read_to_string(bench.path("r.html")).unwrap();
+    assert!(page.starts_with("<!DOCTYPE html>") && page.ends_with("</html>\n") && !page.contains("old old"));
+    bench.write("bad.csv", "observation_deg,entrance_deg,value\n0.2,5,x\n");
+    assert_eq!(bench.catseye("fit bad.csv --report r.html", "").code, 1);
+    assert_eq!(fs::read_to_string(bench.path("r.html")).unwrap(), page);
+    let standard = bench.catseye("fit table.csv --report -", "");
+    assert!(standard.stdout.starts_with("<!DOCTYPE html>") && standard.stderr.contains("accepted: worst"));
+}
+
+/// 12.7 MB once: a mark of two polygons for each of them.
+#[test]
+fn two_thousand_rows_make_less_than_a_megabyte() {
+    let mut table = "observation_deg,entrance_deg,value,unit\n".to_owned();
+    for (i, j) in (0..50).flat_map(|i| (0..40).map(move |j| (i, j))) {
+        let [observation, entrance] = [0.1 + 0.04 * f64::from(i), -50.0 + 2.5 * f64::from(j)];
+        let noise = 1.0 + 0.03 * (f64::from(37 * i + 101 * j) * 0.7).sin();
+        let value =
+            300.0 * 0.5_f64.powf((observation / 0.8).powi(2)) * entrance.to_radians().cos().powi(3) * noise;
+        table += &format!("{observation:.2},{entrance},{value:.4},cd/lx/m2\n");
+    }
+    let page = report(&table, "--lobes 1 --entrance power");
+    println!("{} bytes", page.len());
+    assert!(page.len() < 1_000_000, "{}", page.len());
+    assert!(page.contains("of 2000 values are drawn") && page.contains("The 40 of 2000 values that"));
+}
+
+#[test]
+fn the_report_of_a_brdf_has_its_curves() {
+    let bench = Bench::new();
+    bench.write("tape.dat", &alta(&coated_tape(), "#PARAM_OUT INV_STERADIAN_COSINE_FACTOR\n"));
+    let fit = bench.catseye("fit tape.dat --lobes 1 --report tape.html", "");
+    let page = fs::read_to_string(bench.path("tape.html")).unwrap();
+    assert_eq!(page.matches("<svg").count(), 2, "{}{}", fit.stdout, fit.stderr);
+    assert!(page.contains("<title>BRDF of tape.dat</title>") && page.contains("angle from the lamp, away"));
+    assert!(page.contains("Dots: the samples in the plane of incidence"), "{}", fit.stdout);
+}
+
+#[test]
+fn what_is_printed_says_what_was_fitted() {
+    let bench = Bench::new();
+    bench.write("sheet.csv", SHEET);
+    let fit = bench.catseye("fit sheet.csv", "");
+    let expected = "fitted to 5 values of R_A and Y, observation 0.2 to 0.5 deg, entrance 5 to 30 deg\n";
+    assert!(fit.stdout.contains(expected), "{}", fit.stdout);
+    let refused = bench.catseye("fit sheet.csv --lobes 1 --tolerance 0.1 --report r.html", "");
+    assert_eq!(refused.code, 1);
+    assert!(refused.stdout.contains("not accepted: worst of 5 values"), "{}", refused.stdout);
+    let page = fs::read_to_string(bench.path("r.html")).unwrap();
+    assert!(page.contains("<b>Not accepted</b>") && !page.contains("<b>Accepted</b>"));
 }
 
 /// `ISO 20471` can't be met, and the fit says which rows say so.

@@ -111,7 +111,7 @@ pub struct Fit {
     pub shape: Option<ShapeBound>,
     /// The forms that were tried, in order.
     pub trials: Vec<Trial>,
-    /// What the reader should know.
+    /// What the reader should know; of a single number [`Estimate::warning`] says it.
     pub warnings: Vec<String>,
 }
 
@@ -128,8 +128,7 @@ pub fn fit(observations: &[Observation], options: &FitOptions) -> Result<Fit, Fi
         return Err(FitError::NoLobe);
     }
     let estimates = uncertainty::estimates(&solution, observations, options);
-    let mut warnings = span.warnings(options, observations.len(), solution.unknowns());
-    warnings.extend(estimates.iter().filter_map(Estimate::warning));
+    let warnings = span.warnings(options, observations.len(), solution.unknowns());
     // The noise of measurements is not log-convex either.
     let is_table = observations.len() <= TABLE_ROWS;
     let shape =

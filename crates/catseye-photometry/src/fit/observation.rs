@@ -82,7 +82,8 @@ pub(crate) const SAME_ANGLE: f64 = 1.8e-4;
 impl Observation {
     /// The middle of the directions: to the receiver, to the source. An aperture's views surround what is
     /// meant.
-    pub(crate) fn centre(&self) -> Geometry {
+    #[must_use]
+    pub fn centre(&self) -> Geometry {
         let mean = |of: fn(&View) -> Vec3<f64>| {
             self.views.iter().map(of).fold(Vec3::default(), |sum, w| sum + w).normalized()
         };
@@ -96,8 +97,9 @@ impl Observation {
         Self { views: vec![View { wo, wi, factor }], ..*self }
     }
 
-    /// Whether the value says something about the lobes.
-    pub(crate) fn is_retro(&self) -> bool {
+    /// Whether the value says something about the lobes: it is within 30 degrees of the retro direction.
+    #[must_use]
+    pub fn is_retro(&self) -> bool {
         self.centre().observation() <= RETRO_REACH
     }
 }

@@ -29,9 +29,9 @@ pub struct Estimate {
 }
 
 impl Estimate {
-    /// What the reader should know of the number.
+    /// What the reader should know of the number, if anything.
     #[must_use]
-    pub(crate) fn warning(&self) -> Option<String> {
+    pub fn warning(&self) -> Option<String> {
         let name = self.meaning.name();
         let [low, value, high] = [self.interval[0], self.value, self.interval[1]].map(|x| significant(x, 3));
         if !self.determined {

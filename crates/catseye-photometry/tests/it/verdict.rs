@@ -26,8 +26,8 @@ fn a_class_is_met_where_all_its_limits_are() {
     let failed = Verdict::new(class, 0.0, even(100.0)).unwrap();
     assert_eq!(
         failed.to_string(),
-        "fails FMVSS 108 Grade DOT-C2 white at 0.2 degree, entrance -4 degree: R_A 100, at least 250 cd/lx/m2 \
-         (2 of 6 points)"
+        "fails FMVSS 108 Grade DOT-C2 white at 0.2 degree, entrance -4 degree: R_A 100, \
+         at least 250 cd/lx/m2 (2 of 6 points)"
     );
 }
 

@@ -1,7 +1,9 @@
 //! `catseye fit`: from coefficients of retro-reflection to a material.
 
+mod figures;
 mod outcome;
 mod page;
+mod provenance;
 pub(crate) mod subject;
 
 use std::path::{Path, PathBuf};
@@ -11,11 +13,11 @@ use catseye::Model;
 use catseye_photometry::brdf::{BrdfFitError, Cosine, Part};
 use catseye_photometry::fit::{EntranceKind, Fit, FitError, FitOptions, Observation, fit};
 use catseye_photometry::half_power::roughness_from_half_power_angle;
-use catseye_photometry::{Apertures, Colour, MaterialText, to_mtlx};
+use catseye_photometry::{ApertureRule, Apertures, Colour, MaterialText, to_mtlx};
 use clap::ValueEnum;
 
 use self::outcome::Outcome;
-use self::page::page;
+use self::page::{Context, page};
 use self::subject::Subject;
 use crate::failure::Usage;
 use crate::help;
@@ -131,6 +133,7 @@ struct Job {
     parts: Vec<Part>,
     options: FitOptions,
     colour: Colour,
+    rule: ApertureRule,
     material: Option<Output>,
     page: Option<Output>,
 }
@@ -141,7 +144,16 @@ impl Args {
         let (found, beside) = job.fit()?;
         let outcome = job.outcome(&found, beside.as_ref());
         if let Some(file) = &job.page {
-            file.write(page(&outcome)?.as_bytes())?;
+            let is_written = found.acceptable && outcome.fault().is_none();
+            let context = Context {
+                title: self.name.as_ref().unwrap_or(&job.subject.title),
+                rule: &job.rule,
+                aperture_deg: self.aperture_deg,
+                colour: job.colour,
+                area_m2: self.area_m2,
+                material: job.material.as_ref().filter(|_| is_written).map(Output::name),
+            };
+            file.write(page(&outcome, &context)?.as_bytes())?;
         }
         job.messages().print(self.json, &outcome.json(), &outcome.text())?;
         if let Some(fault) = outcome.fault() {
@@ -164,7 +176,12 @@ impl Args {
             subject.drop_minima_beside_values();
         }
         let colour = self.colour.unwrap_or_else(|| subject.colour());
-        let observations = self.observations(&mut subject)?;
+        if let Some(value) = self.luminance_factor {
+            subject.add_luminance_factor(value)?;
+        }
+        let apertures = Apertures::both_deg(self.aperture_deg);
+        let rule = apertures.rule()?;
+        let observations = subject.observations(self.at_least, self.area_m2, &rule)?;
         let options = FitOptions {
             diffuse: self.luminance_factor.is_some() || subject.has_luminance_factor() || subject.is_brdf(),
             isotropic: subject.is_brdf(),
@@ -173,8 +190,7 @@ impl Args {
             tolerance: 0.01 * self.tolerance.unwrap_or(if subject.is_brdf() { BRDF_TOLERANCE } else { 5.0 }),
             ..options
         };
-        let apertures = Apertures::both_deg(self.aperture_deg);
-        Ok(Job { subject, observations, apertures, parts: Vec::new(), options, colour, material, page })
+        Ok(Job { subject, observations, apertures, rule, parts: Vec::new(), options, colour, material, page })
     }
 
     /// The material's file and the report's.
@@ -230,22 +246,13 @@ impl Args {
         })
     }
 
-    /// The subject's rows as a fit sees them, and one more where a luminance factor was given as an option.
-    fn observations(&self, subject: &mut Subject) -> anyhow::Result<Vec<Observation>> {
-        if let Some(value) = self.luminance_factor {
-            subject.add_luminance_factor(value)?;
-        }
-        let rule = Apertures::both_deg(self.aperture_deg).rule()?;
-        subject.observations(self.at_least, self.area_m2, &rule)
-    }
-
     fn document(&self, outcome: &Outcome<'_>, colour: Colour) -> String {
         let subject = outcome.subject;
         let file = self.output.as_deref().filter(|path| *path != Path::new("-"));
         let stem = file.and_then(Path::file_stem).map(|stem| stem.to_string_lossy().into_owned());
         let name = self.name.clone().or(stem).unwrap_or_else(|| subject.name.clone());
         let title = &subject.title;
-        let command = command_line(std::env::args().skip(1));
+        let command = provenance::command_of_result();
         let doc = format!("Fitted to {title} by catseye {command}: {}.", outcome.verdict());
         let sources = subject.sources().join("; ");
         let source =
@@ -296,23 +303,4 @@ impl Job {
         let files = [&self.material, &self.page].into_iter().flatten();
         files.map(Output::messages).find(|stream| *stream == Stream::Err).unwrap_or(Stream::Out)
     }
-}
-
-/// The command as it was given, without what it was to write.
-fn command_line(words: impl Iterator<Item = String>) -> String {
-    const FILES: [&str; 3] = ["-o", "--output", "--report"];
-    const SILENT: [&str; 3] = ["--json", "-q", "--quiet"];
-    let mut kept = Vec::new();
-    let mut words = words;
-    while let Some(word) = words.next() {
-        if FILES.contains(&word.as_str()) {
-            words.next();
-        } else if !SILENT.contains(&word.as_str())
-            && !FILES.iter().any(|file| word.starts_with(&format!("{file}=")))
-        {
-            let plain = word.chars().all(|c| c.is_ascii_alphanumeric() || "-_.:,/=+".contains(c));
-            kept.push(if plain { word } else { format!("'{word}'") });
-        }
-    }
-    kept.join(" ")
 }

@@ -3,12 +3,15 @@
 use std::fmt::Write as _;
 
 use catseye_photometry::brdf::{Metrics, Part, Region};
-use catseye_photometry::fit::{Aim, EntranceKind, Fault, Fit, Form, Observation};
+use catseye_photometry::fit::{Aim, EntranceKind, Estimate, Fault, Fit, Form, Observation};
 use catseye_photometry::half_power::half_power_angle;
-use catseye_photometry::significant;
+use catseye_photometry::{Row, significant};
 use serde_json::{Value, json};
 
 use super::subject::Subject;
+
+/// Rows that are listed: of more, half as many.
+const MOST_ROWS: usize = 80;
 
 /// A fit and all that is said of it.
 #[derive(Clone, Debug)]
@@ -30,14 +33,19 @@ pub(crate) struct Outcome<'a> {
 impl Outcome<'_> {
     /// One sentence: how good the fit is.
     pub(crate) fn verdict(&self) -> String {
-        let (rows, worst, rms) = (self.observations.len(), percent(self.fit.worst), percent(self.fit.rms));
         let word = if self.fit.acceptable { "accepted" } else { "not accepted" };
+        format!("{word}: {}", self.reason())
+    }
+
+    /// The same without the word: what decided, in the sense in which the tolerance was asked for.
+    pub(crate) fn reason(&self) -> String {
+        let (rows, worst, rms) = (self.observations.len(), percent(self.fit.worst), percent(self.fit.rms));
         let tolerance = percent(self.tolerance);
         if let Some(metrics) = self.metrics() {
             let (count, most) = (metrics.count, percent(metrics.percentile_95()));
             return format!(
-                "{word}: rms of the {count} samples around the incident direction {rms}, 95 % of them within \
-                 {most}, {}, tolerance {tolerance}",
+                "rms of the {count} samples around the incident direction {rms}, 95 % of them within {most}, {}, \
+                 tolerance {tolerance}",
                 self.all_but(metrics)
             );
         }
@@ -46,7 +54,59 @@ impl Outcome<'_> {
         let spare = limits.map(|(_, ratio)| ratio - 1.0).reduce(f64::max);
         let spare =
             spare.map_or(String::new(), |spare| format!(", minima exceeded by at most {}", percent(spare)));
-        format!("{word}: worst of {rows} values {worst} off, rms {rms}, tolerance {tolerance}{spare}")
+        if self.is_of_rms() {
+            return format!(
+                "rms of {rows} values {rms}, tolerance {tolerance} rms; worst {worst} off{spare}"
+            );
+        }
+        format!("worst of {rows} values {worst} off, rms {rms}, tolerance {tolerance}{spare}")
+    }
+
+    /// Whether the tolerance is of the root mean square, so that no row has one.
+    fn is_of_rms(&self) -> bool {
+        self.observations.len() > 64
+    }
+
+    /// What each row may be off, where there is such a limit.
+    pub(crate) fn row_tolerance(&self) -> Option<f64> {
+        (!self.is_of_rms()).then_some(self.tolerance)
+    }
+
+    /// Whether a row is within its tolerance.
+    pub(crate) fn is_met(&self, aim: Aim, ratio: f64) -> bool {
+        let Some(tolerance) = self.row_tolerance() else { return true };
+        let is_below = aim != Aim::AtMost && ratio < 1.0 - tolerance;
+        let is_above = aim != Aim::AtLeast && ratio > 1.0 + tolerance;
+        !(is_below || is_above)
+    }
+
+    /// What was fitted: how many values of what, and the angles that they cover.
+    pub(crate) fn fitted(&self) -> String {
+        let mut quantities: Vec<&str> = Vec::new();
+        for symbol in self.subject.rows.iter().map(|row| row.quantity.symbol()) {
+            if !quantities.contains(&symbol) {
+                quantities.push(symbol);
+            }
+        }
+        let what = if quantities.is_empty() { "the BRDF".to_owned() } else { quantities.join(" and ") };
+        let retro = self.observations.iter().filter(|row| row.is_retro()).map(angles_deg);
+        let [observation, entrance] = [0, 1].map(|i| range(retro.clone().map(|angles| angles[i])));
+        let count = self.observations.len();
+        format!("{count} values of {what}, observation {observation} deg, entrance {entrance} deg")
+    }
+
+    /// The rows to list with their ratios and whether they are met: all of a table, of a long one those that
+    /// are farthest off, in their order.
+    pub(crate) fn shown_rows(&self) -> Vec<(&Row, f64, bool)> {
+        let rows = self.subject.rows.iter().zip(self.observations).zip(&self.fit.ratios);
+        let rows = rows.map(|((row, seen), &ratio)| (row, ratio, self.is_met(seen.aim, ratio)));
+        let mut rows: Vec<(usize, (&Row, f64, bool))> = rows.enumerate().collect();
+        if rows.len() > MOST_ROWS {
+            rows.sort_by(|(_, a), (_, b)| b.1.ln().abs().total_cmp(&a.1.ln().abs()));
+            rows.truncate(MOST_ROWS / 2);
+            rows.sort_by_key(|(i, _)| *i);
+        }
+        rows.into_iter().map(|(_, row)| row).collect()
     }
 
     /// How good the model of a measured BRDF is around the incident direction.
@@ -70,7 +130,7 @@ impl Outcome<'_> {
     }
 
     /// How many samples of a measured BRDF are no outliers.
-    fn all_but(&self, metrics: &Metrics) -> String {
+    pub(crate) fn all_but(&self, metrics: &Metrics) -> String {
         let limit = percent(Metrics::outlying(self.tolerance));
         match metrics.outliers(self.tolerance) {
             0 => format!("all within {}", percent(metrics.worst())),
@@ -124,7 +184,8 @@ impl Outcome<'_> {
     pub(crate) fn fault(&self) -> Option<String> {
         let Fault { observation_deg, entrance_deg: [from, to], r_a: [before, after] } = self.fit.fault?;
         Some(format!(
-            "at observation {} deg R_A goes from {} at entrance {from} deg to {} at {to} deg, which no sheeting does",
+            "at observation {} deg R_A goes from {} at entrance {from} deg to {} at {to} deg, which no \
+             sheeting does",
             short(observation_deg),
             short(before),
             short(after)
@@ -135,7 +196,8 @@ impl Outcome<'_> {
     pub(crate) fn text(&self) -> String {
         let mut text = String::new();
         let title = &self.subject.title;
-        let _ = writeln!(text, "{title}: {}\n", describe(&self.fit.form));
+        let _ = writeln!(text, "{title}: {}", describe(&self.fit.form));
+        let _ = writeln!(text, "fitted to {}\n", self.fitted());
         let _ = writeln!(text, "{:<28} {:>12}   one standard deviation", "number", "value");
         for estimate in &self.fit.estimates {
             let [low, high] = estimate.interval;
@@ -161,20 +223,21 @@ impl Outcome<'_> {
     }
 
     /// Roughness of the coat that a mirror peak has.
-    fn coat_roughness(&self) -> Option<f64> {
+    pub(crate) fn coat_roughness(&self) -> Option<f64> {
         Some(self.fit.sheeting.coat_roughness).filter(|roughness| *roughness > 0.0)
     }
 
     /// The values one by one.
     fn rows(&self, text: &mut String) {
-        if self.subject.rows.is_empty() {
+        let (rows, all) = (self.shown_rows(), self.subject.rows.len());
+        if rows.is_empty() {
             return;
         }
         let _ = writeln!(
             text,
             "\nobservation   entrance   rotation  quantity        value        model   model/value"
         );
-        for (row, ratio) in self.subject.rows.iter().zip(&self.fit.ratios) {
+        for (row, ratio, _) in &rows {
             let value = row.value_as_written().unwrap_or(f64::NAN);
             let _ = writeln!(
                 text,
@@ -187,22 +250,31 @@ impl Outcome<'_> {
                 short(value * ratio),
             );
         }
+        if rows.len() < all {
+            let _ =
+                writeln!(text, "the {} of {all} values that are farthest off; --json has all", rows.len());
+        }
     }
 
     fn warnings(&self) -> impl Iterator<Item = String> {
-        let all = self.subject.remarks.iter().chain(&self.fit.warnings);
+        let all = self.subject.remarks.iter().chain(&self.fit.warnings).cloned().chain(self.open_numbers());
         all.map(|warning| format!("warning: {warning}"))
+    }
+
+    /// The numbers that the values leave open or that are at the end of their range, a sentence each.
+    fn open_numbers(&self) -> impl Iterator<Item = String> {
+        self.fit.estimates.iter().filter_map(Estimate::warning)
     }
 
     /// The result for programs.
     pub(crate) fn json(&self) -> Value {
-        let estimate = |e: &catseye_photometry::fit::Estimate| {
+        let estimate = |e: &Estimate| {
             json!({
                 "name": e.meaning.name(), "value": e.value, "low": e.interval[0], "high": e.interval[1],
                 "determined": e.determined, "at_bound": e.at_bound,
             })
         };
-        let row = |(row, ratio): (&catseye_photometry::Row, &f64)| {
+        let row = |(row, ratio): (&Row, &f64)| {
             let value = row.value_as_written();
             json!({
                 "observation_deg": row.observation_deg, "entrance_deg": row.entrance_deg,
@@ -235,9 +307,24 @@ impl Outcome<'_> {
             "coat_ior": self.fit.form.coat_ior, "coat_roughness": self.coat_roughness(),
             "regions": self.parts.iter().map(part).collect::<Vec<_>>(),
             "remarks": self.subject.remarks, "why_not": self.why_not(), "back_vector": beside,
-            "warnings": self.fit.warnings,
+            "warnings": self.fit.warnings.iter().cloned().chain(self.open_numbers()).collect::<Vec<_>>(),
         })
     }
+}
+
+/// Observation and entrance angle in degrees; below 0 where the normal is tipped away from the receiver.
+pub(crate) fn angles_deg(row: &Observation) -> [f64; 2] {
+    let centre = row.centre();
+    let [observation, entrance] = [centre.observation(), centre.entrance()].map(f64::to_degrees);
+    [observation, if centre.wo.z < centre.wi.z { -entrance } else { entrance }]
+}
+
+/// The ends of some angles in degrees, to a hundredth.
+fn range(angles: impl Iterator<Item = f64> + Clone) -> String {
+    let round = |angle: f64| (100.0 * angle).round() / 100.0 + 0.0;
+    let low = round(angles.clone().fold(f64::INFINITY, f64::min));
+    let high = round(angles.fold(f64::NEG_INFINITY, f64::max));
+    if low == high { low.to_string() } else { format!("{low} to {high}") }
 }
 
 /// A form in words.

@@ -1,151 +1,347 @@
-//! The report of a fit: one HTML page that needs nothing else.
+//! The report of a fit: one HTML page that needs nothing else, to look at and to print.
 
-use std::fmt::Write as _;
+use catseye_photometry::brdf::Part;
+use catseye_photometry::fit::{Estimate, Trial};
+use catseye_photometry::standards::{Catalogue, StandardClass};
+use catseye_photometry::verdict::{Check, Kind, Standing, Verdict, verdicts};
+use catseye_photometry::{ApertureRule, Colour, Geometry, Limit, Quantity, Unit, significant};
+use maud::{DOCTYPE, Markup, PreEscaped, html};
 
-use catseye_photometry::fit::{Fit, Trial};
-use catseye_photometry::{Quantity, Row};
-
-use crate::plot::figure;
-use crate::plot::ra::{Point, RaFigure, Request};
-
+use super::figures::{self, Drawing};
 use super::outcome::{Outcome, describe, percent, short};
+use super::provenance;
+use crate::plot::figure::{self, Figure};
+use crate::plot::ra::Over;
 
-const STYLE: &str = "body{font:15px/1.5 system-ui,sans-serif;color:#22262b;max-width:60rem;\
-margin:2rem auto;padding:0 1rem}\
-table{border-collapse:collapse;margin:.5rem 0 1.5rem}th,td{padding:.2rem .8rem;text-align:right;\
-border-bottom:1px solid #dde0e3}th:first-child,td:first-child{text-align:left}th{font-weight:600}\
-.off{color:#b3261e}.good{color:#1b7f3b}svg{max-width:100%;height:auto}";
+const STYLE: &str = include_str!("page.css");
+/// Classes that are failed and listed: those that are missed by least.
+const MOST_FAILED: usize = 5;
+
+/// What the page needs beside the outcome.
+#[derive(Debug)]
+pub(crate) struct Context<'a> {
+    /// What the page is about.
+    pub(crate) title: &'a str,
+    /// The instrument's apertures, and their diameter in degrees.
+    pub(crate) rule: &'a ApertureRule,
+    pub(crate) aperture_deg: f64,
+    /// The material's colour.
+    pub(crate) colour: Colour,
+    /// Area of a whole reflector.
+    pub(crate) area_m2: Option<f64>,
+    /// The file that the material goes to, where it is written.
+    pub(crate) material: Option<String>,
+}
 
 /// The whole page.
-pub(crate) fn page(outcome: &Outcome<'_>) -> anyhow::Result<String> {
-    let fit = outcome.fit;
-    let title = escaped(&outcome.subject.title);
-    let mut html = format!(
-        "<!DOCTYPE html>\n<html lang=\"en\">\n<meta charset=\"utf-8\">\n<title>{title}</title>\n\
-         <style>{STYLE}</style>\n<h1>{title}</h1>\n<p>{}</p>\n",
-        escaped(&describe(&fit.form))
-    );
-    let class = if fit.acceptable { "good" } else { "off" };
-    let _ = writeln!(html, "<p class=\"{class}\">{}</p>", escaped(&outcome.verdict()));
-    let said = [outcome.why_not(), outcome.reciprocity(), outcome.fault()];
-    let remarks = outcome.subject.remarks.iter().chain(&fit.warnings).cloned();
-    for line in outcome.accuracy().chain(said.into_iter().flatten()).chain(remarks) {
-        let _ = writeln!(html, "<p>{}</p>", escaped(&line));
-    }
-    html.push_str(&curves(outcome, fit, "retro_reflective_bsdf")?);
-    html.push_str("<h2>Numbers</h2>\n");
-    numbers(&mut html, fit);
-    if !outcome.subject.rows.is_empty() {
-        html.push_str("<h2>Values</h2>\n");
-        values(&mut html, outcome);
-    }
-    html.push_str("<h2>Models that were tried</h2>\n");
-    trials(&mut html, &fit.trials, "");
-    if let Some(beside) = outcome.beside {
-        html.push_str("<h2>The same values with the back-vector GGX lobe</h2>\n");
-        html.push_str(&curves(outcome, beside, "back-vector GGX")?);
-        trials(&mut html, &beside.trials, "back-vector: ");
-        numbers(&mut html, beside);
-    }
-    sources(&mut html, &outcome.subject.sources());
-    html.push_str("</html>\n");
-    Ok(html)
-}
-
-/// `R_A` over the observation angle with the table's values, as SVG; empty where the table has none.
-fn curves(outcome: &Outcome<'_>, fit: &Fit, model: &str) -> anyhow::Result<String> {
-    let is_r_a = |row: &&Row| row.quantity == Quantity::RetroReflectionCoefficient;
-    let point = |row: &Row| {
-        let Row { observation_deg, entrance_deg, limit, .. } = *row;
-        row.value.map(|r_a| Point { observation_deg, entrance_deg, r_a, limit })
-    };
-    let points: Vec<Point> = outcome.subject.rows.iter().filter(is_r_a).filter_map(point).collect();
-    if points.is_empty() {
-        return Ok(String::new());
-    }
-    let mut entrance_deg: Vec<f64> = points.iter().map(|point| point.entrance_deg).collect();
-    entrance_deg.sort_by(f64::total_cmp);
-    entrance_deg.dedup();
-    let end_deg = 1.3 * points.iter().map(|point| point.observation_deg).fold(0.0, f64::max);
-    let prepared = fit.sheeting.prepare()?;
-    let request = Request {
-        title: format!("R_A of {}", outcome.subject.title),
-        subtitle: format!("{model}: {}", describe(&fit.form)),
-        entrance_deg,
-        end_deg,
-        points,
-    };
-    let figure = RaFigure::new(request, |geometry| {
-        let f = prepared.eval(geometry.wo, geometry.wi);
-        Ok(Quantity::RetroReflectionCoefficient.of_brdf(f, geometry).unwrap_or_default())
-    })?;
-    figure::svg(&figure)
-}
-
-fn sources(html: &mut String, sources: &[&str]) {
-    if sources.is_empty() {
-        return;
-    }
-    html.push_str("<h2>Sources</h2>\n<ul>\n");
-    for source in sources {
-        let _ = writeln!(html, "<li>{}</li>", escaped(source));
-    }
-    html.push_str("</ul>\n");
-}
-
-fn numbers(html: &mut String, fit: &Fit) {
-    html.push_str("<table>\n<tr><th>number<th>value<th>one standard deviation<th></tr>\n");
-    for estimate in &fit.estimates {
-        let [low, high] = estimate.interval.map(short);
-        let note = match (estimate.determined, estimate.at_bound) {
-            (false, _) => "not determined by the data",
-            (true, true) => "at the end of its range",
-            (true, false) => "",
-        };
-        let (name, value) = (escaped(&estimate.meaning.name()), short(estimate.value));
-        let _ = writeln!(html, "<tr><td>{name}<td>{value}<td>{low} to {high}<td>{note}</tr>");
-    }
-    html.push_str("</table>\n");
-}
-
-fn values(html: &mut String, outcome: &Outcome<'_>) {
-    let beside = outcome.beside.map_or("", |_| "<th>back-vector");
-    let _ = writeln!(
-        html,
-        "<table>\n<tr><th>quantity<th>observation<th>entrance<th>rotation<th>value<th>unit<th>model\
-         <th>model/value{beside}</tr>"
-    );
-    for (i, (row, ratio)) in outcome.subject.rows.iter().zip(&outcome.fit.ratios).enumerate() {
-        let Row { observation_deg, entrance_deg, rotation_deg, .. } = row;
-        let value = row.value_as_written().unwrap_or(f64::NAN);
-        let class = if (ratio - 1.0).abs() > outcome.tolerance { " class=\"off\"" } else { "" };
-        let _ = write!(
-            html,
-            "<tr><td>{}<td>{observation_deg}°<td>{entrance_deg}°<td>{rotation_deg}°<td>{}<td>{}<td>{}\
-             <td{class}>{ratio:.3}",
-            row.quantity.symbol(),
-            short(value),
-            escaped(row.unit.symbol()),
-            short(value * ratio),
-        );
-        if let Some(other) = outcome.beside.and_then(|fit| fit.ratios.get(i)) {
-            let _ = write!(html, "<td>{other:.3}");
+pub(crate) fn page(outcome: &Outcome<'_>, context: &Context<'_>) -> anyhow::Result<String> {
+    let (title, rule) = (context.title, context.rule);
+    let source = &outcome.subject.title;
+    let fitted_to = if source == title { "photometric values" } else { source.as_str() };
+    let drawings = [
+        drawing(figures::r_a(outcome, rule, Over::Observation)?)?,
+        drawing(figures::r_a(outcome, rule, Over::Entrance)?)?,
+        drawing(figures::brdf(outcome, rule)?)?,
+        drawing(Some(figures::residuals(outcome)))?,
+    ];
+    let page = html! {
+        (DOCTYPE)
+        html lang="en" {
+            head {
+                meta charset="utf-8";
+                meta name="viewport" content="width=device-width, initial-scale=1";
+                meta name="generator" content=(concat!("catseye ", env!("CARGO_PKG_VERSION")));
+                title { (title) }
+                style { (PreEscaped(STYLE)) }
+            }
+            body {
+                h1 { (title) }
+                p.kind { "Retro-reflective material fitted to " (fitted_to) }
+                (verdict(outcome))
+                (facts(outcome, context)?)
+                (notes(outcome))
+                h2 { "Curves" }
+                @for drawing in &drawings { (drawing) }
+                (standards(outcome, context)?)
+                @if !outcome.subject.rows.is_empty() { (values(outcome)) }
+                h2 { "The material" }
+                p { (describe(&outcome.fit.form)) "." }
+                (numbers(outcome))
+                (remarks(outcome))
+                (models(outcome))
+            }
         }
-        html.push_str("</tr>\n");
-    }
-    html.push_str("</table>\n");
+    };
+    Ok(page.into_string() + "\n")
 }
 
-fn trials(html: &mut String, trials: &[Trial], prefix: &str) {
-    html.push_str("<table>\n<tr><th>model<th>free numbers<th>worst<th>rms<th></tr>\n");
-    for Trial { form, unknowns, worst, rms, fault } in trials {
-        let (worst, rms, form) = (percent(*worst), percent(*rms), escaped(&describe(form)));
-        let note = if fault.is_some() { "not physical over the entrance angle" } else { "" };
-        let _ = writeln!(html, "<tr><td>{prefix}{form}<td>{unknowns}<td>{worst}<td>{rms}<td>{note}</tr>");
-    }
-    html.push_str("</table>\n");
+fn drawing<F: Figure>(drawing: Option<Drawing<F>>) -> anyhow::Result<Markup> {
+    let Some(Drawing { figure, caption }) = drawing else { return Ok(html! {}) };
+    let svg = figure::svg(&figure)?;
+    Ok(html! { figure { (PreEscaped(svg)) figcaption { (caption) } } })
 }
 
-fn escaped(text: &str) -> String {
-    text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;")
+/// The answer, before everything else.
+fn verdict(outcome: &Outcome<'_>) -> Markup {
+    let is_good = outcome.fit.acceptable;
+    html! {
+        div.verdict.good[is_good].off[!is_good] {
+            p { b { (if is_good { "Accepted" } else { "Not accepted" }) } }
+            p { (capital(&outcome.reason())) "." }
+            @for line in [outcome.fault(), outcome.why_not()].into_iter().flatten() {
+                p { (capital(&line)) "." }
+            }
+        }
+    }
+}
+
+/// Where the result comes from.
+fn facts(outcome: &Outcome<'_>, context: &Context<'_>) -> anyhow::Result<Markup> {
+    let subject = outcome.subject;
+    let apertures = match context.aperture_deg {
+        0.0 => "points (no aperture was given)".to_owned(),
+        diameter => format!("{diameter}\u{b0}, source and receiver"),
+    };
+    Ok(html! {
+        table.facts {
+            tr { th { "Date" } td { (provenance::date()?) } }
+            tr { th { "Program" } td { "catseye " (env!("CARGO_PKG_VERSION")) } }
+            tr { th { "Command" } td { code { "catseye " (provenance::command_line()) } } }
+            tr { th { "Input" } td { (subject.name) ", " (outcome.fitted()) } }
+            tr { th { "SHA-256 of the input" } td { code { (subject.sha256) } } }
+            @for (name, values) in &subject.facts { tr { th { (name) } td { (values.join("; ")) } } }
+            tr { th { "Apertures" } td { (apertures) } }
+            @for source in subject.sources() { tr { th { "Source of the values" } td { (source) } } }
+            @if let Some(file) = &context.material { tr { th { "Material" } td { (file) } } }
+        }
+    })
+}
+
+/// What the reader has to know, in plain words.
+fn notes(outcome: &Outcome<'_>) -> Markup {
+    let lines: Vec<String> = outcome.subject.remarks.iter().chain(&outcome.fit.warnings).cloned().collect();
+    let open = open_numbers(&outcome.fit.estimates);
+    html! {
+        @if !lines.is_empty() || open.is_some() {
+            div.notes {
+                b { "Please note" }
+                ul {
+                    @for line in lines.iter().chain(&open) { li { (capital(line)) "." } }
+                }
+            }
+        }
+    }
+}
+
+/// The numbers that the values leave open, in one sentence.
+fn open_numbers(estimates: &[Estimate]) -> Option<String> {
+    let name = |estimate: &Estimate| {
+        let [low, high] = estimate.interval.map(|x| significant(x, 2));
+        format!("{} ({low} to {high})", estimate.meaning.name())
+    };
+    let open: Vec<String> = estimates.iter().filter(|estimate| !estimate.determined).map(name).collect();
+    (!open.is_empty()).then(|| {
+        format!(
+            "the values leave open: {}. A material with others of these numbers meets the values as well; \
+             the curves between the values hardly depend on them, those beyond do",
+            open.join(", ")
+        )
+    })
+}
+
+/// What the classes of standards of the material's kind and colour have to say.
+fn standards(outcome: &Outcome<'_>, context: &Context<'_>) -> anyhow::Result<Markup> {
+    let Some(kind) = outcome.subject.kind() else { return Ok(html! {}) };
+    let catalogue = Catalogue::embedded()?;
+    let is_alike = |class: &&StandardClass| {
+        Kind::of(class) == kind && Colour::named(&class.rows()[0].colour) == Some(context.colour)
+    };
+    let prepared = outcome.fit.sheeting.prepare()?;
+    let measure = |quantity: Quantity, geometry: &Geometry| {
+        let f = prepared.eval(geometry.wo, geometry.wi);
+        match (quantity, context.area_m2) {
+            (Quantity::LuminousIntensity, Some(area)) => {
+                Quantity::RetroReflectionCoefficient.of_brdf(area * f, geometry)
+            }
+            _ => quantity.of_brdf(f, geometry),
+        }
+    };
+    let (mut all, _) = verdicts(catalogue.classes().iter().filter(is_alike), 0.0, measure);
+    // The class that was fitted, if it is one, before the others.
+    all.sort_by_key(|verdict| verdict.class().id() != outcome.subject.name);
+    let met = all.iter().filter(|verdict| verdict.is_met()).count();
+    let count = all.len().min(met + MOST_FAILED);
+    let (shown, left) = all.split_at(count);
+    Ok(html! {
+        @if let Some(first) = all.first() {
+            h2 { "Standards" }
+            table {
+                thead {
+                    tr {
+                        th { "class" } th.text { "verdict" } th { "tightest at" } th { "found" }
+                        th { "limit" }
+                    }
+                }
+                @for verdict in shown { (standard(verdict)) }
+            }
+            p.small {
+                "Classes of the same colour whose values come with the program; `catseye standards \
+                 list` names their sources. Not judged: " (first.not_judged().join(", ")) ". No guard band."
+                @if !left.is_empty() { " " (left.len()) " more classes are not met." }
+            }
+        }
+    })
+}
+
+fn standard(verdict: &Verdict<'_>) -> Markup {
+    let Check { row, asked, found } = *verdict.tightest();
+    let (class, word) = match verdict.standing() {
+        Standing::Meets => ("text good", "meets"),
+        Standing::WithinGuard => ("text near", "within the guard band"),
+        Standing::Fails => ("text off", "fails"),
+    };
+    let [asked, found] = [asked, found].map(|value| short(row.unit.of_si(value)));
+    let bound = if row.limit == Limit::Maximum { "at most" } else { "at least" };
+    html! {
+        tr {
+            td { (verdict.class().title()) } td class=(class) { (word) }
+            td { (row.observation_deg) "\u{b0}, " (row.entrance_deg) "\u{b0}" }
+            td { (symbol(row.quantity)) " " (found) } td { (bound) " " (asked) " " (unit(row.unit)) }
+        }
+    }
+}
+
+fn values(outcome: &Outcome<'_>) -> Markup {
+    let (rows, all) = (outcome.shown_rows(), outcome.subject.rows.len());
+    html! {
+        h2 { "Values" }
+        table {
+            thead {
+                tr {
+                    th { "quantity" } th { "observation" } th { "entrance" } th { "rotation" } th { "value" }
+                    th.text { "unit" } th { "material" } th { "off by" }
+                }
+            }
+            @for (row, ratio, is_met) in &rows {
+                @let value = row.value_as_written().unwrap_or(f64::NAN);
+                tr {
+                    td { (symbol(row.quantity)) } td { (row.observation_deg) "\u{b0}" }
+                    td { (row.entrance_deg) "\u{b0}" } td { (row.rotation_deg) "\u{b0}" }
+                    td { (short(value)) } td.text { (unit(row.unit)) } td { (short(value * ratio)) }
+                    td.off[!is_met] { (off_by(*ratio)) }
+                }
+            }
+        }
+        @if rows.len() < all {
+            p.small { "The " (rows.len()) " of " (all) " values that the material is farthest from." }
+        }
+    }
+}
+
+fn numbers(outcome: &Outcome<'_>) -> Markup {
+    html! {
+        table {
+            thead { tr { th { "number" } th { "value" } th { "one standard deviation" } th.text {} } }
+            @for estimate in &outcome.fit.estimates {
+                @let [low, high] = estimate.interval.map(short);
+                tr {
+                    td { (estimate.meaning.name()) } td { (short(estimate.value)) } td { (low) " to " (high) }
+                    td.text {
+                        @match (estimate.determined, estimate.at_bound) {
+                            (false, _) => "left open by the values",
+                            (true, true) => "at the end of its range",
+                            (true, false) => "",
+                        }
+                    }
+                }
+            }
+            @if let Some(roughness) = outcome.coat_roughness() {
+                tr { td { "coat roughness" } td { (short(roughness)) } td {} td.text {} }
+            }
+        }
+    }
+}
+
+/// How good the model of a measured BRDF is in each of its regions, and what is of second rank.
+fn remarks(outcome: &Outcome<'_>) -> Markup {
+    html! {
+        @if !outcome.parts.is_empty() {
+            table {
+                thead {
+                    tr {
+                        th { "region" } th { "samples" } th { "log-RMSE" } th { "NRMSE" } th { "95 % within" }
+                        th.text {}
+                    }
+                }
+                @for Part { name, metrics, .. } in outcome.parts {
+                    tr {
+                        td { (name) } td { (metrics.count) } td { (format!("{:.3}", metrics.log_rmse)) }
+                        td { (format!("{:.4}", metrics.nrmse)) } td { (percent(metrics.percentile_95())) }
+                        td.text { (outcome.all_but(metrics)) }
+                    }
+                }
+            }
+        }
+        @if let Some(line) = outcome.reciprocity() { p.small { (capital(&line)) "." } }
+    }
+}
+
+/// The models that were tried, folded away on a screen.
+fn models(outcome: &Outcome<'_>) -> Markup {
+    html! {
+        h2 { "Models" }
+        details {
+            summary { "The models that were tried, from the simplest on" }
+            (trials(&outcome.fit.trials))
+            @if let Some(beside) = outcome.beside {
+                p { "The same values with the back-vector GGX lobe of MaterialX 1.39.5:" }
+                (trials(&beside.trials))
+            }
+        }
+    }
+}
+
+fn trials(trials: &[Trial]) -> Markup {
+    html! {
+        table {
+            thead { tr { th { "model" } th { "numbers" } th { "worst" } th { "rms" } th.text {} } }
+            @for Trial { form, unknowns, worst, rms, fault } in trials {
+                tr {
+                    td { (describe(form)) } td { (unknowns) } td { (percent(*worst)) } td { (percent(*rms)) }
+                    td.text { @if fault.is_some() { "not physical over the entrance angle" } }
+                }
+            }
+        }
+    }
+}
+
+/// A quantity's symbol with its index lowered.
+fn symbol(quantity: Quantity) -> Markup {
+    match quantity.symbol().split_once('_') {
+        Some((letter, index)) => html! { (letter) sub { (index) } },
+        None => html! { (quantity.symbol()) },
+    }
+}
+
+fn unit(unit: Unit) -> String {
+    if unit == Unit::One { String::new() } else { unit.symbol().replace('2', "\u{b2}") }
+}
+
+/// By how many percent a model is off.
+fn off_by(ratio: f64) -> String {
+    let percent = (1000.0 * (ratio - 1.0)).round() / 10.0;
+    let sign = if percent > 0.0 {
+        "+"
+    } else if percent < 0.0 {
+        "\u{2212}"
+    } else {
+        ""
+    };
+    format!("{sign}{:.1} %", percent.abs())
+}
+
+/// A sentence's beginning.
+fn capital(text: &str) -> String {
+    let mut chars = text.chars();
+    chars.next().map_or_else(String::new, |first| first.to_uppercase().chain(chars).collect())
 }

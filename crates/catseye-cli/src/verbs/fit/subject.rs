@@ -7,16 +7,20 @@ use catseye_photometry::brdf::{Brdf, Cosine, Selection};
 use catseye_photometry::fit::{Aim, Observation};
 use catseye_photometry::openmaterial::{Assumption, OpenMaterial};
 use catseye_photometry::standards::StandardClass;
+use catseye_photometry::verdict::Kind;
 use catseye_photometry::{ApertureRule, Colour, Error, Limit, Quantity, Row, Table};
 
+use super::provenance::sha256;
 use crate::failure::Usage;
 use crate::instrument::table;
 
+/// Columns that a report repeats: what was measured, by whom and with what.
+const FACTS: [&str; 4] = ["Instrument", "Illuminant", "Laboratory", "Specimen"];
 /// Samples of a measured BRDF that a fit looks at: more of them make it slower and no better.
 const BRDF_SAMPLES: usize = 400;
 
 /// The values of one material.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub(crate) struct Subject {
     /// The name of the file or of the standard's class.
     pub(crate) name: String,
@@ -30,6 +34,11 @@ pub(crate) struct Subject {
     pub(crate) roughness: Option<f64>,
     /// What was assumed, a sentence each.
     pub(crate) remarks: Vec<String>,
+    /// What the table says of the measurement, each with what it says.
+    pub(crate) facts: Vec<(&'static str, Vec<String>)>,
+    /// The digest of what was read: the file, or the rows of a standard's class as `standards show` prints
+    /// them.
+    pub(crate) sha256: String,
 }
 
 impl Subject {
@@ -38,19 +47,27 @@ impl Subject {
     pub(crate) fn find(name: &str, only: Option<&str>, cosine: Cosine) -> anyhow::Result<Self> {
         let path = Path::new(name);
         let ending = path.extension().unwrap_or_default().to_string_lossy().to_lowercase();
-        match ending.as_str() {
-            "xomp" => Self::of_open_material(path),
-            "dat" | "alta" | "binary" => Self::of_brdf(path, cosine),
-            "mtlx" if path.is_file() => {
-                bail!("{name}: is a material; fit makes one from values, measure takes values from it")
-            }
-            _ if table::is_table(name) => Self::of_table(&table::read(path)?, only),
-            _ => Self::of_table(table::class(name)?.table(), only),
+        if ending == "mtlx" && path.is_file() {
+            bail!("{name}: is a material; fit makes one from values, measure takes values from it");
         }
+        let is_file = matches!(ending.as_str(), "xomp" | "dat" | "alta" | "binary") || table::is_table(name);
+        if !is_file {
+            let class = table::class(name)?;
+            let sha256 = sha256(class.table().to_csv(&[]).as_bytes());
+            return Ok(Self { sha256, ..Self::of_table(class.table(), only)? });
+        }
+        let (bytes, name) = table::bytes(path)?;
+        let subject = match ending.as_str() {
+            "xomp" => Self::of_open_material(&bytes, &name),
+            "dat" | "alta" | "binary" => Self::of_brdf(&bytes, &name, cosine),
+            _ => Self::of_table(&Table::parse_values(&bytes, &name)?, only),
+        };
+        Ok(Self { sha256: sha256(&bytes), ..subject? })
     }
 
-    fn of_open_material(path: &Path) -> anyhow::Result<Self> {
-        let material = OpenMaterial::read(path)?;
+    fn of_open_material(bytes: &[u8], name: &str) -> anyhow::Result<Self> {
+        let text = str::from_utf8(bytes).map_err(|_| anyhow!("{name}: is not UTF-8 text"))?;
+        let material = OpenMaterial::parse(text, name)?;
         let assumption = Assumption::default();
         let subject = Self::of_table(&material.table(&assumption)?, None)?;
         let title = if material.name.is_empty() { subject.title } else { material.name };
@@ -62,8 +79,8 @@ impl Subject {
         })
     }
 
-    fn of_brdf(path: &Path, cosine: Cosine) -> anyhow::Result<Self> {
-        let brdf = Brdf::read(path, cosine).map_err(|error| match error {
+    fn of_brdf(bytes: &[u8], name: &str, cosine: Cosine) -> anyhow::Result<Self> {
+        let brdf = Brdf::parse(bytes, name, cosine).map_err(|error| match error {
             Error::Cosine { found, .. } if found.included => anyhow!("{error}; --cosine reads them so"),
             Error::Cosine { .. } => anyhow!("{error}; --cosine=false reads them so"),
             _ => error.into(),
@@ -75,7 +92,7 @@ impl Subject {
                 "{skipped} samples are negative, not finite, above 1e9/sr or below the surface, and left out"
             ));
         }
-        Ok(Self { title: name.clone(), name, rows: Vec::new(), brdf: Some(brdf), roughness: None, remarks })
+        Ok(Self { title: file_name(&name), name, brdf: Some(brdf), remarks, ..Self::default() })
     }
 
     fn of_table(table: &Table, only: Option<&str>) -> anyhow::Result<Self> {
@@ -100,8 +117,16 @@ impl Subject {
         }
         let name = table.name().to_owned();
         let class = StandardClass::from_table(Table::from_rows(&name, table.header(), rows.clone()));
-        let title = class.map_or_else(|| name.clone(), |class| class.title());
-        Ok(Self { name, title, rows, brdf: None, roughness: None, remarks: Vec::new() })
+        let title = class.map(|class| class.title()).filter(|title| *title != name);
+        let title = title.unwrap_or_else(|| file_name(&name));
+        let facts = facts(table.header(), &rows);
+        Ok(Self { name, title, rows, facts, ..Self::default() })
+    }
+
+    /// What the values are of; `None` of a BRDF.
+    pub(crate) fn kind(&self) -> Option<Kind> {
+        let class = StandardClass::from_table(Table::from_rows(&self.name, &[], self.rows.clone()))?;
+        Some(Kind::of(&class))
     }
 
     /// The colour that the rows name or the samples have near the retro direction, or white.
@@ -132,13 +157,7 @@ impl Subject {
 
     /// Where the values come from, each source once.
     pub(crate) fn sources(&self) -> Vec<&str> {
-        let mut sources = Vec::new();
-        for row in &self.rows {
-            if !row.source.is_empty() && !sources.contains(&row.source.as_str()) {
-                sources.push(&row.source);
-            }
-        }
-        sources
+        each_once(self.rows.iter().map(|row| row.source.as_str()))
     }
 
     /// Leaves out the minima where there are typical values, which say what the material is.
@@ -189,6 +208,7 @@ impl Subject {
             quantity: Quantity::LuminanceFactor,
             unit: Quantity::LuminanceFactor.unit(),
             value: Some(value),
+            uncertainty: None,
             limit: Limit::Typical,
             source: String::new(),
             ..row
@@ -200,6 +220,33 @@ impl Subject {
     pub(crate) fn has_luminance_factor(&self) -> bool {
         self.rows.iter().any(|row| row.quantity == Quantity::LuminanceFactor)
     }
+}
+
+/// The last part of a path.
+fn file_name(path: &str) -> String {
+    Path::new(path).file_name().map_or_else(|| path.to_owned(), |name| name.to_string_lossy().into_owned())
+}
+
+/// Texts that are not empty, each once, in their order.
+fn each_once<'a>(texts: impl Iterator<Item = &'a str>) -> Vec<&'a str> {
+    let mut found = Vec::new();
+    for text in texts.filter(|text| !text.is_empty()) {
+        if !found.contains(&text) {
+            found.push(text);
+        }
+    }
+    found
+}
+
+/// What the columns of [`FACTS`] say.
+fn facts(header: &[String], rows: &[Row]) -> Vec<(&'static str, Vec<String>)> {
+    let fact = |name: &'static str| {
+        let column = header.iter().position(|other| other.eq_ignore_ascii_case(name))?;
+        let cells = rows.iter().filter_map(|row| row.cells.get(column)).map(String::as_str);
+        let found: Vec<String> = each_once(cells).into_iter().map(str::to_owned).collect();
+        (!found.is_empty()).then_some((name, found))
+    };
+    FACTS.iter().filter_map(|name| fact(name)).collect()
 }
 
 /// Standard, class and colour of the materials among some rows, each once.

@@ -17,14 +17,13 @@ use crate::options::{LibraryArgs, ModelArg, Roughness};
 use crate::plot::axes::roughness_label;
 use crate::plot::curves::without_width;
 use crate::plot::figure::FigureArgs;
-use crate::plot::ra::{Point, RaFigure, Request};
+use crate::plot::ra::{self, MOST_CURVES, Over, Point, Request};
 
-/// Curves of one diagram: more can't be told apart.
-const MOST_CURVES: usize = 8;
 /// Entrance angles where neither the command nor a table names any.
 const ENTRANCES_DEG: [f64; 3] = [-4.0, 30.0, 45.0];
 /// The least observation angle that the axis ends at, in degrees.
 const LEAST_END_DEG: f64 = 2.0;
+const SIZE: (u32, u32) = (960, 640);
 
 /// `R_A` at a geometry, in cd/lx/m2.
 type Coefficient = Box<dyn Fn(&Geometry) -> anyhow::Result<f64>>;
@@ -33,7 +32,7 @@ type Coefficient = Box<dyn Fn(&Geometry) -> anyhow::Result<f64>>;
 /// table
 ///
 /// Of a material, or of one lobe with --roughness and --tint. Upright triangles are minima, inverted ones
-/// maxima, dots are typical values; each has the colour of its entrance angle.
+/// maxima, dots are values; each has the colour of its entrance angle.
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::PLOT_RA)]
 #[command(group = ArgGroup::new("subject").required(true))]
@@ -85,8 +84,17 @@ impl Args {
         let (title, r_a) = self.subject()?;
         let subtitle =
             class.map_or_else(String::new, |class| format!("with the values of {}", class.title()));
-        let request = Request { title, subtitle, entrance_deg, end_deg, points };
-        self.figure.write(&RaFigure::new(request, r_a)?, "ra.svg")
+        let request = Request {
+            title,
+            subtitle: Some(subtitle),
+            size: SIZE,
+            over: Over::Observation,
+            curves_deg: entrance_deg,
+            x: [0.0, end_deg],
+            known: None,
+            points,
+        };
+        self.figure.write(&ra::chart(request, r_a)?, "ra.svg")
     }
 
     /// What is plotted: its name, and its `R_A`.
@@ -149,6 +157,7 @@ fn point(row: &Row) -> Option<Point> {
         observation_deg: row.observation_deg,
         entrance_deg: row.entrance_deg,
         r_a: Quantity::RetroReflectionCoefficient.of_brdf(f, &geometry)?,
+        uncertainty: None,
         limit: row.limit,
     })
 }
