@@ -5,6 +5,7 @@ mod distant;
 mod environment;
 mod lat_long;
 mod point;
+mod profile;
 mod sphere;
 
 use std::fmt::Debug;
@@ -18,6 +19,7 @@ pub use distant::DistantLight;
 pub use environment::{Environment, Sky};
 pub use lat_long::LatLong;
 pub use point::PointLight;
+pub use profile::ProfileLight;
 pub use sphere::{Beam, SphereLight};
 
 /// A direction towards a light.
