@@ -15,6 +15,8 @@ pub(crate) fn run() -> Result<()> {
         "plot albedo -o docs/albedo.png",
         "plot albedo --model back-vector -o docs/albedo_back_vector.png",
         "plot spheres -o docs/back_vector.png",
+        "drive materials/sheeting.mtlx materials/sheeting_astm_type_i_white.mtlx astm-d4956:iii:white --required 2.4 \
+         --plot docs/drive.png",
     ] {
         run_cargo(&format!("run --release --quiet --package catseye-cli -- {arguments}"))?;
     }

@@ -4,8 +4,8 @@ use clap::{Command, CommandFactory as _, FromArgMatches as _, Parser, Subcommand
 
 use crate::report;
 use crate::verbs::{
-    albedo, completions, eval, export, fit, furnace, man, materialx, measure, optics, plot, render,
-    roughness, sample, standards,
+    albedo, completions, drive, eval, export, fit, furnace, lidar, man, materialx, measure, optics, plot,
+    render, roughness, sample, standards,
 };
 
 /// The retro-reflective BSDF: evaluate it, sample it, plot it, render with it.
@@ -37,6 +37,8 @@ enum Verb {
     Export(export::Args),
     Standards(standards::Args),
     Roughness(roughness::Args),
+    Drive(Box<drive::Args>),
+    Lidar(lidar::Args),
     Plot(plot::Args),
     Materialx(materialx::Args),
     Optics(optics::Args),
@@ -66,6 +68,8 @@ impl Cli {
             Verb::Export(args) => args.run(),
             Verb::Standards(args) => args.run(),
             Verb::Roughness(args) => args.run(),
+            Verb::Drive(args) => args.run(),
+            Verb::Lidar(args) => args.run(),
             Verb::Plot(args) => args.run(),
             Verb::Materialx(args) => args.run(),
             Verb::Optics(args) => args.run(),

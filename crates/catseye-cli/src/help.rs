@@ -199,3 +199,18 @@ Table format:
 pub(crate) fn table(example: &str) -> String {
     format!("{TABLE}\n\n{example}")
 }
+
+/// Examples of `catseye drive`.
+pub(crate) const DRIVE: &str = "\
+Example:
+  $ catseye drive materials/sheeting.mtlx astm-d4956:iii:white --distance-m 200,100,50
+  $ catseye drive materials/sheeting.mtlx --vehicle truck --sign overhead --csv -o truck.csv
+  $ catseye drive materials/sheeting.mtlx astm-d4956:iii:white --required 2.4 --plot drive.svg
+  wrote drive.svg (960 x 600)";
+
+/// Examples of `catseye lidar`.
+pub(crate) const LIDAR: &str = "\
+Example:
+  $ catseye lidar materials/sheeting.mtlx --observation-deg 0.1 --tint 905=0.6 --csv -o lidar.csv
+  $ catseye lidar astm-d4956:iii:white --spacing-mm 60 --distance-m 20 --tint 905=0.6
+  $ catseye lidar fra-224:white --observation-deg 0.3 --entrance-deg 5 --tint 905=0.6 --sdf";

@@ -6,6 +6,7 @@ use std::sync::Arc;
 
 use catseye::Model;
 use catseye_materialx::{Document, Library, Material, SearchPath};
+use catseye_photometry::openmaterial::Band;
 use clap::ValueEnum;
 
 use crate::report;
@@ -42,6 +43,27 @@ impl FromStr for Roughness {
         let (u, v) = text.split_once(',').unwrap_or((text, text));
         let number = |text: &str| text.trim().parse().map_err(|_| "write it like 0.3, or 0.3,0.1".to_owned());
         Ok(Self([number(u)?, number(v)?]))
+    }
+}
+
+/// A value of `--tint`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct Tint(pub(crate) Band);
+
+impl FromStr for Tint {
+    type Err = String;
+
+    fn from_str(text: &str) -> Result<Self, String> {
+        let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
+        let parts = text
+            .split_once('=')
+            .and_then(|(nm, factor)| Some(Band { wavelength_nm: number(nm)?, tint: number(factor)? }));
+        let band = parts.ok_or("a wavelength in nanometres and a factor are needed: 905=0.3")?;
+        let legal = (100.0..=20_000.0).contains(&band.wavelength_nm) && (0.0..=1.0).contains(&band.tint);
+        if !legal {
+            return Err("the wavelength must be from 100 to 20000 nm, the factor from 0 to 1".to_owned());
+        }
+        Ok(Self(band))
     }
 }
 

@@ -5,7 +5,7 @@ use std::io::{self, Write as _};
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use anyhow::Context as _;
-use serde_json::Value;
+use serde_json::{Map, Value};
 
 /// Whether `--quiet` was given.
 static QUIET: AtomicBool = AtomicBool::new(false);
@@ -64,4 +64,21 @@ pub(crate) fn warn(warning: impl fmt::Display) {
 /// JSON as it is printed.
 pub(crate) fn json(facts: &Value) -> anyhow::Result<String> {
     Ok(serde_json::to_string_pretty(facts)? + "\n")
+}
+
+/// The objects as CSV, numbers with the digits that give them back.
+pub(crate) fn csv(objects: &[Map<String, Value>]) -> anyhow::Result<String> {
+    let mut writer = csv::Writer::from_writer(Vec::new());
+    let Some(first) = objects.first() else { return Ok(String::new()) };
+    writer.write_record(first.keys())?;
+    for object in objects {
+        // What some subjects have and others have not is the last column.
+        let cells = first.keys().map(|name| match object.get(name) {
+            Some(Value::String(text)) => text.clone(),
+            None | Some(Value::Null) => String::new(),
+            Some(number) => number.to_string(),
+        });
+        writer.write_record(cells)?;
+    }
+    Ok(String::from_utf8(writer.into_inner()?)?)
 }

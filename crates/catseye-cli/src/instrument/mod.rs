@@ -1,7 +1,9 @@
 //! Instruments that a material is measured with, and the tables of values that they are compared with.
 
 pub(crate) mod goniometer;
+pub(crate) mod headlamps;
 pub(crate) mod retroreflectometer;
+pub(crate) mod subject;
 pub(crate) mod table;
 
 use anyhow::{anyhow, bail};

@@ -40,14 +40,14 @@ impl Axes {
         DB::ErrorType: 'static,
     {
         let y_ticks: Vec<(f64, String)> = y_ticks.iter().map(|&y| (y, signed(y))).collect();
-        self.draw_labelled(canvas, x_ticks, &y_ticks, titles)
+        self.draw_labelled(canvas, &degrees(x_ticks), &y_ticks, titles)
     }
 
-    /// As [`Axes::draw`], where the values from bottom to top are not what their labels say: logarithms.
+    /// As [`Axes::draw`], where labels are not the values, as of logarithms, or not in degrees.
     pub(crate) fn draw_labelled<DB: DrawingBackend>(
         &self,
         canvas: &Canvas<'_, DB>,
-        x_ticks: &[f64],
+        x_ticks: &[(f64, String)],
         y_ticks: &[(f64, String)],
         [x_title, y_title]: [&str; 2],
     ) -> anyhow::Result<()>
@@ -56,10 +56,10 @@ impl Axes {
     {
         let ((left, top), (width, height)) = (self.origin, self.size);
         let bottom = top + height;
-        for &x in x_ticks {
-            let (at, _) = self.place((x, *self.y.start()));
+        for (x, label) in x_ticks {
+            let (at, _) = self.place((*x, *self.y.start()));
             canvas.line(&[(at, top), (at, bottom)], GRID, 1.0)?;
-            canvas.text(&format!("{}°", signed(x)), (at, bottom + 16.0), Lettering::center(14.0, MUTED))?;
+            canvas.text(label, (at, bottom + 16.0), Lettering::center(14.0, MUTED))?;
         }
         for (y, label) in y_ticks {
             let (_, at) = self.place((*self.x.start(), *y));
@@ -70,6 +70,11 @@ impl Axes {
         canvas.text(x_title, (left + width / 2.0, bottom + 42.0), Lettering::center(15.0, INK))?;
         canvas.text(y_title, (left - 30.0, top - 22.0), Lettering::left(15.0, INK))
     }
+}
+
+/// Ticks with their angles in degrees as labels.
+pub(crate) fn degrees(ticks: &[f64]) -> Vec<(f64, String)> {
+    ticks.iter().map(|&x| (x, format!("{}°", signed(x)))).collect()
 }
 
 /// A number with a proper minus sign.

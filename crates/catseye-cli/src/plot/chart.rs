@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use catseye_photometry::Limit;
 use plotters::prelude::{DrawingBackend, RGBColor};
 
-use super::axes::{Axes, signed, ticks_between};
+use super::axes::{Axes, degrees, signed, ticks_between};
 use super::canvas::{self, Canvas, GRID, INK, Lettering, MUTED};
 use super::curves::{LABEL_STEP, shade, spread};
 use super::figure::Figure;
@@ -111,7 +111,7 @@ impl Chart {
 }
 
 /// The logarithm of the next 1, 2 or 5 times a power of ten.
-fn round_up(log: f64) -> f64 {
+pub(super) fn round_up(log: f64) -> f64 {
     let decade = log.floor();
     let steps = [1.0_f64, 2.0, 5.0, 10.0].map(|m| decade + m.log10());
     steps.into_iter().find(|&step| step >= log - 1e-9).unwrap_or(decade + 1.0)
@@ -138,7 +138,7 @@ impl Figure for Chart {
         let frame = self.frame([bottom, top]);
         self.draw_unknown(canvas, &frame)?;
         let [x_title, y_title, _] = &self.titles;
-        let x_ticks = ticks_between(self.x, 10.0);
+        let x_ticks = degrees(&ticks_between(self.x, 10.0));
         frame.draw_labelled(canvas, &x_ticks, &log_ticks(bottom, top), [x_title, y_title])?;
         // Few marks stand on their curves, many would hide them.
         if self.marks.len() > MANY {
@@ -250,7 +250,7 @@ fn visible(curve: &[canvas::Point], bottom: f64) -> impl Iterator<Item = canvas:
 
 /// 1, 2 and 5 times the powers of ten, with their values as labels; where there are many decades the powers
 /// alone.
-fn log_ticks(bottom: f64, top: f64) -> Vec<(f64, String)> {
+pub(super) fn log_ticks(bottom: f64, top: f64) -> Vec<(f64, String)> {
     let decades = bottom.floor() as i32..=top.ceil() as i32;
     let steps: &[f64] = if top - bottom > DECADES + 1.0 { &[1.0] } else { &[1.0, 2.0, 5.0] };
     let all = decades.flat_map(|decade| steps.iter().map(move |m| m * 10.0_f64.powi(decade)));

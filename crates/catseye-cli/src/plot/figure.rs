@@ -61,6 +61,13 @@ pub(crate) struct FigureArgs {
 }
 
 impl FigureArgs {
+    /// A file by its name, which is refused at once where it can't be written.
+    pub(crate) fn at(path: &Path) -> anyhow::Result<Self> {
+        output::format::<Format>(path, None)?;
+        Output::new(path)?;
+        Ok(Self { output: Some(path.to_owned()), format: None, json: false })
+    }
+
     /// Writes the figure and says so; `name` is the file where none was asked for.
     pub(crate) fn write(&self, figure: &impl Figure, name: &str) -> anyhow::Result<()> {
         let path = self.output.as_deref().unwrap_or(Path::new(name));

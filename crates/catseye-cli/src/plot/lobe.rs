@@ -6,7 +6,7 @@ use anyhow::bail;
 use catseye::{AnyLobe, DIRAC_ROUGHNESS, Lobe as _, Model, ParamError, Params, Vec3, width};
 use plotters::prelude::DrawingBackend;
 
-use super::axes::{Axes as Frame, roughness_label, ticks};
+use super::axes::{Axes as Frame, degrees, roughness_label, ticks};
 use super::canvas::{Canvas, INK, Lettering, MUTED};
 use super::curves::{Curve, Panel, style, without_width};
 use super::figure::Figure;
@@ -258,7 +258,7 @@ impl LobeFigure {
         let frame = self.frame(left, x.clone(), bottom..=0.0);
         let label = |decade: i32| (-f64::from(decade), power_of_ten(-decade));
         let y_ticks: Vec<_> = (0..=DECADES).step_by(2).map(label).collect();
-        frame.draw_labelled(canvas, &x_ticks, &y_ticks, ["outgoing angle", &panel.title])?;
+        frame.draw_labelled(canvas, &degrees(&x_ticks), &y_ticks, ["outgoing angle", &panel.title])?;
         let peak = panel.greatest();
         panel.draw_curves(canvas, |(angle, value)| {
             let log = (value / peak).log10();

@@ -5,6 +5,7 @@ pub(crate) mod axes;
 mod canvas;
 pub(crate) mod chart;
 pub(crate) mod curves;
+pub(crate) mod drive;
 pub(crate) mod figure;
 pub(crate) mod furnace;
 pub(crate) mod lobe;

@@ -2,7 +2,7 @@
 
 use plotters::prelude::{DrawingBackend, RGBColor};
 
-use super::axes::{Axes, signed, ticks_between};
+use super::axes::{Axes, degrees, signed, ticks_between};
 use super::canvas::{Canvas, INK};
 use super::figure::Figure;
 
@@ -77,7 +77,7 @@ impl Figure for Residuals {
                 canvas.fill(&corners.map(|place| frame.place(place)), BAND)?;
             }
             let y_title = if i == 0 { y_title } else { "" };
-            frame.draw_labelled(canvas, &ticks_between(x, 6.0), &y_ticks, [title, y_title])?;
+            frame.draw_labelled(canvas, &degrees(&ticks_between(x, 6.0)), &y_ticks, [title, y_title])?;
             canvas.line(&[(x[0], 0.0), (x[1], 0.0)].map(|place| frame.place(place)), INK, 1.0)?;
             for row in &self.rows {
                 let color = if row.is_met { GOOD } else { OFF };

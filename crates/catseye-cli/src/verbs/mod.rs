@@ -2,10 +2,12 @@
 
 pub(crate) mod albedo;
 pub(crate) mod completions;
+pub(crate) mod drive;
 pub(crate) mod eval;
 pub(crate) mod export;
 pub(crate) mod fit;
 pub(crate) mod furnace;
+pub(crate) mod lidar;
 pub(crate) mod man;
 pub(crate) mod materialx;
 pub(crate) mod measure;

@@ -3,6 +3,7 @@
 
 mod bad_input;
 mod csv_contract;
+mod drive;
 mod export;
 mod fit;
 mod furnace_table;
@@ -11,6 +12,7 @@ mod help;
 mod ignored;
 mod instrument;
 mod interrupted;
+mod lidar;
 mod materialx_check;
 mod materialx_export;
 mod materialx_library;

@@ -78,3 +78,8 @@ fn the_guide_to_export() {
             .all(|file| left.contains(&(*file).to_owned()))
     );
 }
+
+#[test]
+fn the_guide_to_signs_and_lidars() {
+    assert_eq!(run("docs/drive.md", ROUNDING), ["drive.png", "lamp.ies", "materials"]);
+}

@@ -9,10 +9,11 @@
 //! use catseye_photometry::lamp::Lamp;
 //!
 //! let scene = Scene { vehicle: Vehicle::CAR, road: Road::Straight, sign: Sign::SHOULDER };
-//! let sight = scene.sight(100.0, &Lamp::even(10_000.0), |_| Ok::<_, catseye_photometry::Error>(250.0))?;
+//! let sight = scene.sight(100.0, &Lamp::even(10_000.0))?;
 //! // Two lamps of 10 000 cd bring about 1 lx each to 100 m: R_A times that, over the cosine of the view.
-//! assert!((sight.luminance - 500.0).abs() < 5.0, "{} cd/m2", sight.luminance);
-//! # Ok::<(), catseye_photometry::Error>(())
+//! let luminance: f64 = sight.luminances([250.0, 250.0]).iter().sum();
+//! assert!((luminance - 500.0).abs() < 5.0, "{luminance} cd/m2");
+//! # Ok::<(), catseye_photometry::drive::DriveError>(())
 //! ```
 
 mod error;
@@ -24,7 +25,7 @@ mod vehicle;
 
 pub use error::DriveError;
 pub use road::Road;
-pub use scene::{LampSight, LampView, Scene, Sight, View};
+pub use scene::{LampView, Light, Scene, Sight, View};
 pub use sign::Sign;
 pub use table::{CoefficientTable, Reading};
 pub use vehicle::Vehicle;

@@ -55,28 +55,39 @@ pub struct LampView {
     pub is_hidden: bool,
 }
 
-/// What the driver sees at one distance.
-#[derive(Clone, Debug, PartialEq)]
+/// A view by the light of the headlamps.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Sight {
-    /// The places that it was computed from.
+    /// Where everything is.
     pub view: View,
     /// What each headlamp brings, left and right.
-    pub lamps: [LampSight; 2],
-    /// The sign's luminance in cd/m2.
-    pub luminance: f64,
+    pub light: [Light; 2],
 }
 
-/// What one headlamp brings.
+/// What one headlamp brings to the sign.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct LampSight {
+pub struct Light {
     /// Its intensity towards the sign, in cd.
     pub intensity_cd: f64,
-    /// Its illuminance at the sign, on a plane that faces the lamp, in lx.
+    /// Its illuminance at the sign, on a plane that faces the lamp, in lx; 0 behind a crest.
     pub illuminance_lx: f64,
-    /// The sheeting's coefficient of retro-reflection at the lamp's angles, in cd/lx/m2.
-    pub r_a: f64,
-    /// Its share of the luminance, in cd/m2.
-    pub luminance: f64,
+}
+
+impl Sight {
+    /// The luminance in cd/m2 that each headlamp gives to sheeting of these coefficients of retro-reflection
+    /// `R_A`, in cd/lx/m2, at the geometry of the left and of the right headlamp. The eye sees their sum.
+    ///
+    /// It is `R_A` E / cos nu: the coefficient of retro-reflected luminance is `R_A` / cos nu (CIE ILV
+    /// 17-24-104), of the illuminance E = I / d^2 on a plane that faces the lamp. Light of the sky, of other
+    /// vehicles and scattered by the air is left out.
+    #[must_use]
+    pub fn luminances(&self, r_a: [f64; 2]) -> [f64; 2] {
+        let shown = if self.view.is_hidden { 0.0 } else { 1.0 };
+        [0, 1].map(|i| {
+            let cos_nu = self.view.lamps[i].geometry.wo.z;
+            r_a[i] * self.light[i].illuminance_lx * shown / cos_nu
+        })
+    }
 }
 
 impl LampView {
@@ -128,36 +139,21 @@ impl Scene {
         Ok(View { sign: position, normal: axes.normal, datum: axes.datum, eye, lamps, is_hidden })
     }
 
-    /// What the driver sees of sheeting whose coefficient of retro-reflection is a function of the geometry,
-    /// in cd/lx/m2.
-    ///
-    /// The luminance is the sum of `R_A` E / cos nu over the lamps (CIE ILV 17-24-104: the coefficient of
-    /// retro-reflected luminance is `R_A` / cos nu, of the illuminance on a plane that faces the lamp), where
-    /// E = I / d^2. Light of the sky, of other vehicles and in the eye's own media is left out.
+    /// The same by the light of two such headlamps.
     ///
     /// # Errors
-    /// As [`Scene::view`]; a direction that the lamp has no intensity for; what `r_a` says.
-    pub fn sight<E: From<DriveError>>(
-        &self,
-        distance_m: f64,
-        lamp: &Lamp,
-        mut r_a: impl FnMut(&Geometry) -> Result<f64, E>,
-    ) -> Result<Sight, E> {
+    /// As [`Scene::view`]; a direction that the lamp has no intensity for.
+    pub fn sight(&self, distance_m: f64, lamp: &Lamp) -> Result<Sight, DriveError> {
         let view = self.view(distance_m)?;
-        let mut sights = Vec::with_capacity(view.lamps.len());
-        for from in &view.lamps {
+        let light = |from: &LampView| {
             let LampView { right_deg, up_deg, .. } = *from;
-            let dark = || DriveError::Dark { distance_m, right_deg, up_deg };
-            let intensity_cd = lamp.intensity_cd(right_deg, up_deg).ok_or_else(dark)?;
+            let dark = DriveError::Dark { distance_m, right_deg, up_deg };
+            let intensity_cd = lamp.intensity_cd(right_deg, up_deg).ok_or(dark)?;
             let lit = if from.is_hidden { 0.0 } else { intensity_cd };
-            let illuminance_lx = lit / (from.distance_m * from.distance_m);
-            let r_a = r_a(&from.geometry)?;
-            let seen = if view.is_hidden { 0.0 } else { illuminance_lx };
-            let luminance = r_a * seen / from.geometry.wo.z;
-            sights.push(LampSight { intensity_cd, illuminance_lx, r_a, luminance });
-        }
-        let lamps = [sights[0], sights[1]];
-        Ok(Sight { view, lamps, luminance: lamps[0].luminance + lamps[1].luminance })
+            Ok(Light { intensity_cd, illuminance_lx: lit / (from.distance_m * from.distance_m) })
+        };
+        let [left, right] = &view.lamps;
+        Ok(Sight { light: [light(left)?, light(right)?], view })
     }
 }
 

@@ -40,7 +40,8 @@ pub struct Reading {
 }
 
 impl CoefficientTable {
-    /// Takes the rows that are `R_A`, or become it without an area or an integral; upper limits are left out.
+    /// Takes the rows that are `R_A`, or become it without an area or an integral; upper limits and luminance
+    /// factors are left out.
     ///
     /// # Errors
     /// A table without such rows, and one of several classes, colours or standards.
@@ -62,7 +63,7 @@ impl CoefficientTable {
         }
         let mut series: Vec<Series> = Vec::new();
         for (row, r_a) in usable {
-            let entrance_deg = row.entrance_deg.abs();
+            let entrance_deg = row.geometry().entrance().to_degrees();
             let same = |series: &Series| (series.entrance_deg - entrance_deg).abs() < SAME_DEG;
             let at = series.iter().position(same).unwrap_or_else(|| {
                 series.push(Series { entrance_deg, points: Vec::new() });
@@ -142,9 +143,9 @@ fn interpolated(points: &[(f64, f64)], x: f64) -> (Option<f64>, bool) {
     }
 }
 
-/// A row's value as `R_A`.
+/// A row's value as `R_A`. A luminance factor is of daylight, at 45 degrees: no point of a lobe.
 fn r_a(row: &Row) -> Option<f64> {
-    if row.limit == Limit::Maximum {
+    if row.limit == Limit::Maximum || row.quantity == Quantity::LuminanceFactor {
         return None;
     }
     let geometry = row.geometry();
@@ -183,7 +184,9 @@ mod tests {
         near(read(&table, 0.6, -4.0), 20.0);
         near(read(&table, 0.35, 30.0), 50.0 * 2.0_f64.sqrt());
         near(read(&table, 0.2, -17.0), 20_000.0_f64.sqrt());
-        assert_eq!(table.range_deg(), [[0.2, 1.0], [4.0, 30.0]]);
+        let [observations, [least, most]] = table.range_deg();
+        assert_eq!(observations, [0.2, 1.0]);
+        assert!((least - 4.0).abs() < 1e-12 && (most - 30.0).abs() < 1e-12, "{least} {most}");
     }
 
     #[test]

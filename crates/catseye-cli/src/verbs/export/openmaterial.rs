@@ -2,7 +2,6 @@
 
 use std::cell::RefCell;
 use std::ffi::OsStr;
-use std::str::FromStr;
 
 use anyhow::bail;
 use catseye_photometry::export::LobeRows;
@@ -11,6 +10,7 @@ use catseye_photometry::{Geometry, Goniometer, Quantity};
 use serde_json::json;
 
 use crate::failure::Usage;
+use crate::options::Tint;
 use crate::output::Output;
 
 use super::original::Original;
@@ -35,26 +35,6 @@ impl OpenMaterialArgs {
     /// Whether any option was given.
     pub(super) fn are_given(&self) -> bool {
         self.observation_deg.is_some() || self.entrance_deg.is_some() || !self.tints.is_empty()
-    }
-}
-
-/// A value of `--tint`.
-#[derive(Clone, Copy, Debug)]
-struct Tint(Band);
-
-impl FromStr for Tint {
-    type Err = String;
-
-    fn from_str(text: &str) -> Result<Self, String> {
-        let number = |text: &str| text.trim().parse::<f64>().ok().filter(|number| number.is_finite());
-        let parts = text
-            .split_once('=')
-            .and_then(|(nm, factor)| Some(Band { wavelength_nm: number(nm)?, tint: number(factor)? }));
-        let band = parts.ok_or("a wavelength in nanometres and a factor are needed: 905=0.3")?;
-        if !(band.wavelength_nm > 0.0 && (0.0..=1.0).contains(&band.tint)) {
-            return Err("the wavelength must be above 0, the factor from 0 to 1".to_owned());
-        }
-        Ok(Self(band))
     }
 }
 
