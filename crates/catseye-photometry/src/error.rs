@@ -98,6 +98,15 @@ pub enum Error {
         /// The range, in the notation `[0, 1]`, and the unit.
         range: &'static str,
     },
+    /// A lamp's file that doesn't say which way the lamp looked.
+    #[error(
+        "{file}: has the angles of a luminaire (C, gamma); say whether gamma is counted from straight ahead \
+         (`ahead`) or from straight down (`down`)"
+    )]
+    LampAxis {
+        /// The file.
+        file: String,
+    },
     /// A scene in which there is nothing to be seen.
     #[error(transparent)]
     Drive(#[from] DriveError),

@@ -22,8 +22,8 @@ const SEEN: f64 = 0.02;
 const PIXELS: usize = 4;
 const SAMPLES: u32 = 64;
 
-/// The luminance in cd/m2 of the middle of a sign, rendered from the driver's eye; what a crest hides is
-/// hidden by nothing here.
+/// The luminance in cd/m2 of the middle of a sign, rendered from the driver's eye. A crest is not part of the
+/// scene: what it hides is left out.
 pub(crate) fn luminance(
     view: &View,
     lamp: &Lamp,
@@ -31,6 +31,9 @@ pub(crate) fn luminance(
     model: Model,
     channel: Channel,
 ) -> anyhow::Result<f64> {
+    if view.is_hidden {
+        return Ok(0.0);
+    }
     // The scene stands in the sign's frame, as a goniometer's: world-space inputs of the material are where the
     // closed form has them, and single precision has the most digits at the sign.
     let axes = [view.datum, view.normal.cross(view.datum), view.normal];
@@ -44,7 +47,7 @@ pub(crate) fn luminance(
     let sheeting = scene.materialx(material, model)?;
     scene.mesh(Mesh::quad(Vec3::new(-0.5, -0.5, 0.0) * SIDE, Vec3::X * SIDE, Vec3::Y * SIDE), sheeting);
     let lamp = Arc::new(lamp.clone());
-    for from in view.lamps {
+    for from in view.lamps.iter().filter(|lamp| !lamp.is_hidden) {
         let lamp = Arc::clone(&lamp);
         let shine = move |direction: Vec3| Vec3::splat(intensity(&lamp, axes, direction));
         scene.light(ProfileLight::new(place(from.position), shine));

@@ -37,6 +37,10 @@ fn the_closed_form_and_the_rendered_scene_agree() {
             assert!(closed > 0.0 && (rendered / closed - 1.0).abs() < 0.02, "{args}: {closed} {rendered}");
         }
     }
+    // Behind a crest both are dark.
+    let args = "drive materials/sheeting.mtlx --crest-m 300 --distance-m 100 --render --json";
+    let rows: Vec<Value> = serde_json::from_str(&bench.catseye(args, "").stdout).unwrap();
+    assert!(rows[0]["sign_luminance_cd_m2"] == 0.0 && rows[0]["rendered_cd_m2"] == 0.0, "{}", rows[0]);
     // Turned the other way it is another sign, so the sense of the rotation was tested, too.
     let turned = |turn| {
         let eye = "--eye-left-m 1 --lamp-spacing-m 0";
@@ -129,7 +133,7 @@ fn every_fault_is_said_in_a_line() {
             1,
             "cut.ldt:2: the file ends here; the symmetry (line 3) is expected",
         ),
-        (format!("{sheet} --lamp c.ies"), 1, "(`down`); say so with --lamp-axis"),
+        (format!("{sheet} --lamp c.ies"), 1, "from straight down (`down`), with --lamp-axis"),
         (format!("{sheet} --lamp none.ies"), 1, "none.ies: can't be read"),
         (format!("{sheet} --lamp -5"), 2, "--lamp -5: must be above 0"),
         (format!("{sheet} --lamp-factor 0"), 2, "--lamp-factor 0: must be above 0"),

@@ -91,13 +91,7 @@ impl<'a> Text<'a> {
 
     /// The axis, which a file of C-gamma angles doesn't say.
     pub(super) fn axis(&self, axis: Option<Axis>) -> Result<Axis, Error> {
-        axis.ok_or_else(|| {
-            self.whole(
-                "has the angles of a luminaire (C, gamma); say whether gamma is counted from straight ahead \
-                 (`ahead`) or from straight down (`down`)"
-                    .to_owned(),
-            )
-        })
+        axis.ok_or_else(|| Error::LampAxis { file: self.name.to_owned() })
     }
 }
 

@@ -2,10 +2,10 @@
 
 use std::path::Path;
 
-use anyhow::{anyhow, bail};
+use anyhow::bail;
 use catseye_photometry::drive::{Road, Scene, Sign, Vehicle};
 use catseye_photometry::lamp::{Axis, Lamp};
-use catseye_photometry::significant;
+use catseye_photometry::{Error, significant};
 use clap::ValueEnum;
 
 use crate::failure::Usage;
@@ -173,11 +173,10 @@ impl SettingArgs {
             Ok(candela) if candela > 0.0 && candela <= 1e9 => Lamp::even(candela),
             Ok(candela) => bail!(Usage(format!("--lamp {candela}: must be above 0 and at most 1e9 cd"))),
             Err(_) if self.lamp == BUILT_IN => Lamp::low_beam(),
-            Err(_) => Lamp::read(Path::new(&self.lamp), axis).map_err(|error| {
-                let hint = if axis.is_none() { "; say so with --lamp-axis" } else { "" };
-                let text = error.to_string();
-                anyhow!("{text}{}", if text.ends_with("(`down`)") { hint } else { "" })
-            })?,
+            Err(_) => match Lamp::read(Path::new(&self.lamp), axis) {
+                Err(error @ Error::LampAxis { .. }) => bail!("{error}, with --lamp-axis"),
+                read => read?,
+            },
         };
         Ok(lamp.aimed(self.aim_right_deg, self.aim_up_deg).times(self.lamp_factor))
     }
