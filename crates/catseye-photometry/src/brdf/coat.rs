@@ -1,7 +1,7 @@
 //! The mirror peak of a measured BRDF, as the surface of a rough dielectric coat.
 
 use super::selection::rows;
-use super::{Brdf, Selection};
+use super::{Brdf, Region, Selection};
 use crate::fit::Observation;
 use crate::sheeting::Surface;
 use crate::{Apertures, Error};
@@ -16,8 +16,10 @@ const LEAST_SAMPLES: usize = 8;
 const LEAST_PER_APERTURE: f64 = 0.25;
 /// Degree of the rule: peaks are narrower than lobes.
 const DEGREE: usize = 23;
-/// Samples of the peak that are looked at.
-const SAMPLES: usize = 200;
+/// Samples around the mirror direction that are looked at.
+const SAMPLES: usize = 400;
+/// The greatest part of the squared logarithms that a coat may leave of those without one.
+const LEFT: f64 = 0.5;
 /// Values of a number that are tried at once, and how often the range between the best one's neighbours is
 /// divided again: to 0.4 % of the range.
 const GRID: usize = 7;
@@ -33,8 +35,11 @@ pub struct Coat {
 }
 
 impl Brdf {
-    /// The coat whose reflection is nearest to the values around the mirror direction that are three times as
-    /// high as the base; `None` where there are fewer than eight. The index may be given.
+    /// The coat whose reflection on the base is nearest to the values around the mirror direction. The index
+    /// may be given.
+    ///
+    /// `None` where fewer than eight values are three times as high as the base, and, if no index is given,
+    /// where the peak is none of a dielectric: the coat would leave more than half of the squared logarithms.
     ///
     /// # Errors
     /// Apertures out of range.
@@ -45,21 +50,20 @@ impl Brdf {
         ior: Option<f64>,
     ) -> Result<Option<Coat>, Error> {
         let base = self.base(selection);
-        let selection = Selection { count: SAMPLES, ..*selection };
-        let peak = selection.of_mirror(self, ABOVE_BASE * base);
-        let rows = rows(peak, &apertures.rule_of_degree(DEGREE)?);
-        if rows.len() < LEAST_SAMPLES {
+        let peak = selection.samples(self, Region::Mirror).filter(|s| s.luminance() > ABOVE_BASE * base);
+        if peak.take(LEAST_SAMPLES).count() < LEAST_SAMPLES {
             return Ok(None);
         }
+        let samples = Selection { count: SAMPLES, ..*selection }.of_mirror(self);
+        let rows = rows(samples, &apertures.rule_of_degree(DEGREE)?);
         let least = LEAST_PER_APERTURE * apertures.source.max(apertures.receiver);
         let roughness = [ROUGHNESS[0].max(least), ROUGHNESS[1]].map(f64::ln);
         let best = |ior: f64| nearest(roughness, |roughness| error(&rows, base, [ior, roughness.exp()]));
-        let (ior, _) = match ior {
-            Some(ior) => (ior.ln(), 0.0),
-            None => nearest(IOR.map(f64::ln), |ior| best(ior.exp()).1),
-        };
-        let ior = ior.exp();
-        Ok(Some(Coat { ior, roughness: best(ior).0.exp() }))
+        let free = ior.is_none();
+        let ior = ior.unwrap_or_else(|| nearest(IOR.map(f64::ln), |ior| best(ior.exp()).1).0.exp());
+        let (roughness, left) = best(ior);
+        let without: f64 = rows.iter().map(|row| (base / row.value).ln().powi(2)).sum();
+        Ok((!free || left < LEFT * without).then_some(Coat { ior, roughness: roughness.exp() }))
     }
 
     /// The median of the values that are neither near the incident nor near the mirror direction, or else the
@@ -67,8 +71,7 @@ impl Brdf {
     fn base(&self, selection: &Selection) -> f64 {
         let mut values: Vec<f64> = selection.of_base(self).iter().map(|s| s.luminance()).collect();
         values.sort_by(f64::total_cmp);
-        let least =
-            || selection.of_mirror(self, 0.0).iter().map(|s| s.luminance()).fold(f64::INFINITY, f64::min);
+        let least = || selection.of_mirror(self).iter().map(|s| s.luminance()).fold(f64::INFINITY, f64::min);
         values.get(values.len() / 2).copied().unwrap_or_else(least)
     }
 }

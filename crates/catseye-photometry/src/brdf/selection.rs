@@ -96,10 +96,9 @@ impl Selection {
         evenly(self.samples(brdf, Region::Retro), BrdfSample::observation, self.count)
     }
 
-    /// Those above a value around the mirror direction.
-    pub(super) fn of_mirror<'a>(&self, brdf: &'a Brdf, least: f64) -> Vec<&'a BrdfSample> {
-        let samples = self.samples(brdf, Region::Mirror).filter(|sample| sample.luminance() > least);
-        evenly(samples, BrdfSample::off_mirror, self.count)
+    /// Those around the mirror direction.
+    pub(super) fn of_mirror<'a>(&self, brdf: &'a Brdf) -> Vec<&'a BrdfSample> {
+        evenly(self.samples(brdf, Region::Mirror), BrdfSample::off_mirror, self.count)
     }
 
     /// Those that are 30 degrees away from both, a quarter as many at most: the base has one number.
