@@ -192,7 +192,7 @@ pub(crate) fn along_projection(wo: Vec3<f64>, wi: Vec3<f64>) -> [Vec3<f64>; 2] {
 }
 
 /// Reflectance of a smooth dielectric for unpolarised light that arrives from outside.
-fn fresnel(cosine: f64, ior: f64) -> f64 {
+pub(crate) fn fresnel(cosine: f64, ior: f64) -> f64 {
     let c = cosine.clamp(0.0, 1.0);
     let g = (ior * ior - 1.0 + c * c).max(0.0).sqrt();
     let (s, p) = ((c - g) / (c + g), (ior * ior * c - g) / (ior * ior * c + g));

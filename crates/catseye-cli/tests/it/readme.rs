@@ -73,7 +73,7 @@ fn the_guide_to_photometry() {
 fn the_guide_to_export() {
     let left = run("docs/export.md", FITTED);
     assert!(
-        ["vest.rad", "vest.cal", "vest.gltf", "vest.xomp"]
+        ["vest.rad", "vest.cal", "vest.csv", "vest.xomp"]
             .iter()
             .all(|file| left.contains(&(*file).to_owned()))
     );

@@ -44,8 +44,8 @@ pub fn three(name: &str, material: &Dielectric, remarks: &[String]) -> String {
     format!(
         "{comment}import {{ Color, LinearSRGBColorSpace, MeshPhysicalMaterial }} from 'three';\n\n\
          const linear = (r, g, b) => new Color().setRGB(r, g, b, LinearSRGBColorSpace);\n\n\
-         export const {name} = new MeshPhysicalMaterial({{\n  name: '{name}',\n  color: {},\n  metalness: 0,\n  \
-         roughness: {},\n  ior: 1.5,\n  specularIntensity: {},\n  specularColor: {},\n  \
+         export const {name} = new MeshPhysicalMaterial({{\n  name: '{name}',\n  color: {},\n  \
+         metalness: 0,\n  roughness: {},\n  ior: 1.5,\n  specularIntensity: {},\n  specularColor: {},\n  \
          retroreflectivity: 1,\n}});\n",
         linear(material.color),
         material.roughness,

@@ -12,5 +12,5 @@ mod single;
 pub use deviation::{Deviation, LobeRows};
 pub use engines::{gltf, open_pbr, three};
 pub use law::{LobeFault, LobeSample, ViewedLobe};
-pub use radiance::Radiance;
+pub use radiance::{Coat, Radiance};
 pub use single::{Colours, Dielectric, OpenPbr, SingleLobe};

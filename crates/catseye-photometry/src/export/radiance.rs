@@ -2,13 +2,79 @@
 
 use std::fmt::Write as _;
 
+use catseye::{BackVector, Lobe as _, Vec3};
+
 use super::law::ViewedLobe;
 use crate::entrance::LEAST_COSINE;
 use crate::mtlx::identifier;
+use crate::sheeting::fresnel;
 use crate::significant;
 
 /// Digits of the numbers that are written: more than single precision has.
 const DIGITS: i32 = 9;
+
+/// A clear coat over lobes and base: a dielectric surface, smooth or rough.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Coat {
+    /// The share of the surface that has it, in `[0, 1]`.
+    pub weight: f64,
+    /// Index of refraction.
+    pub ior: f64,
+    /// GGX's alpha; 0 where it is smooth.
+    pub alpha: f64,
+}
+
+/// The least alpha of a gloss that light sources are seen in; below it is a mirror.
+const LEAST_ALPHA: f64 = 1e-3;
+
+impl Coat {
+    /// What passes to a viewer: as a layer in MaterialX, once, by the direction to the viewer.
+    #[must_use]
+    pub fn transmitted(&self, wo: Vec3<f64>) -> f64 {
+        1.0 - self.weight * fresnel(wo.z, self.ior)
+    }
+
+    /// The BSDF of its gloss in 1/sr; 0 of a mirror.
+    #[must_use]
+    pub fn gloss(&self, wo: Vec3<f64>, wi: Vec3<f64>) -> f64 {
+        if self.is_mirror() {
+            return 0.0;
+        }
+        // The back-vector lobe of the mirrored viewer is the usual one.
+        let mirrored = Vec3::new(-wo.x, -wo.y, wo.z);
+        let lobe = BackVector::new([self.alpha; 2], [1.0; 3]).map_or(0.0, |lobe| lobe.eval(mirrored, wi)[0]);
+        self.weight * fresnel((0.5 * (1.0 + wo.dot(wi))).sqrt(), self.ior) * lobe
+    }
+
+    fn is_mirror(&self) -> bool {
+        self.alpha < LEAST_ALPHA
+    }
+
+    /// Its functions: `through` to the viewer, `shade` as the base's pattern, `gloss` for light sources, and
+    /// `mirror` for what is seen in it.
+    fn functions(&self) -> String {
+        let [weight, square, alpha] = [self.weight, self.ior * self.ior, self.alpha.powi(2)].map(number);
+        let gloss = if self.is_mirror() {
+            "gloss(x,y,z) = 0;\n".to_owned()
+        } else {
+            format!(
+                "a2 : {alpha};\nvl(x,y,z) = -(Dx*x + Dy*y + Dz*z);\n\
+                 ggx(h2) = a2/(PI*sq(h2*(a2-1)+1));\n\
+                 smith(a,b) = a*sqrt(a2 + (1-a2)*sq(b));\n\
+                 gloss(x,y,z) = if(min(co, ci(x,y,z))-1e-9, {weight}*fres(sqrt(max(1+vl(x,y,z), 0)/2))\n    \
+                 * ggx(sq(co+ci(x,y,z))/(2+2*vl(x,y,z))) \
+                 * 0.5/(smith(co, ci(x,y,z)) + smith(ci(x,y,z), co)), 0);\n"
+            )
+        };
+        format!(
+            "{{ clear coat }}\nn2 : {square};\n\
+             split(c,g) = 0.5*(sq((c-g)/(c+g)) + sq((n2*c-g)/(n2*c+g)));\n\
+             fres(c) = split(c, sqrt(max(n2-1+sq(c), 0)));\n\
+             through = 1 - {weight}*fres(max(co, 0));\nshade = 1 - {weight}*fres(abs(Rdot));\n\
+             mirror = {weight}*fres(abs(Rdot));\n{gloss}"
+        )
+    }
+}
 
 /// A material for Radiance: a `BRTDfunc` whose lobes are functions of a `.cal` file, and whose base is
 /// diffuse.
@@ -27,9 +93,23 @@ pub struct Radiance<'a> {
     pub lobes: &'a [ViewedLobe],
     /// Albedo of the diffuse base, linear Rec. 709.
     pub base: [f64; 3],
+    /// The coat over both, where there is one.
+    pub coat: Option<Coat>,
 }
 
 impl Radiance<'_> {
+    /// The BSDF in 1/sr per channel, without what is mirrored.
+    #[must_use]
+    pub fn eval(&self, wo: Vec3<f64>, wi: Vec3<f64>) -> [f64; 3] {
+        let lobes = self.lobes.iter().map(|lobe| lobe.eval(wo, wi));
+        let base = self.base.map(|base| base / std::f64::consts::PI);
+        let below = lobes.fold(base, |sum, lobe| [0, 1, 2].map(|c| sum[c] + lobe[c]));
+        match &self.coat {
+            Some(coat) => below.map(|f| coat.transmitted(wo) * f + coat.gloss(wo, wi)),
+            None => below,
+        }
+    }
+
     /// The material's primitive. `functions` is the name of the `.cal` file, which Radiance looks for in the
     /// folder that it runs in and along RAYPATH.
     #[must_use]
@@ -41,7 +121,17 @@ impl Radiance<'_> {
         }
         let [red, green, blue] = self.base.map(number);
         let name = identifier(self.name);
-        text += &format!("void BRTDfunc {name}_front\n10 0 0 0 0 0 0 red green blue {functions}\n0\n");
+        let mut pattern = "void".to_owned();
+        if self.coat.is_some() {
+            pattern = format!("{name}_coat");
+            text += &format!("void brightfunc {pattern}\n2 shade {functions}\n0\n0\n\n");
+        }
+        let mirror = match self.coat {
+            Some(coat) if coat.is_mirror() => "mirror mirror mirror",
+            _ => "0 0 0",
+        };
+        text +=
+            &format!("{pattern} BRTDfunc {name}_front\n10 {mirror} 0 0 0 red green blue {functions}\n0\n");
         text += &format!("9 {red} {green} {blue} 0 0 0 0 0 0\n\n");
         text += &format!("void plastic {name}_back\n0\n0\n5 0 0 0 0 0\n\n");
         text + &format!("void mixfunc {name}\n4 {name}_front {name}_back front {functions}\n0\n0\n")
@@ -53,6 +143,7 @@ impl Radiance<'_> {
         let remarks = self.remarks.join("\n  ").replace(['{', '}'], "");
         let mut text = format!("{{ {remarks} }}\n\n{GEOMETRY}");
         writeln!(text, "cv = max(co, {LEAST_COSINE});").unwrap_or_default();
+        text += &self.coat.map_or(String::new(), |coat| coat.functions());
         for (i, lobe) in (1..).zip(self.lobes) {
             text += &functions_of(i, lobe);
         }
@@ -60,7 +151,9 @@ impl Radiance<'_> {
             let term =
                 |(i, lobe): (usize, &ViewedLobe)| format!("{} * lobe{i}(x,y,z)", number(lobe.tint[channel]));
             let terms: Vec<String> = (1..).zip(self.lobes).map(term).collect();
-            writeln!(text, "{name}(x,y,z,omega) = {};", terms.join(" + ")).unwrap_or_default();
+            let sum = terms.join(" + ");
+            let all = if self.coat.is_some() { format!("through*({sum}) + gloss(x,y,z)") } else { sum };
+            writeln!(text, "{name}(x,y,z,omega) = {all};").unwrap_or_default();
         }
         text
     }
@@ -99,7 +192,9 @@ seen(eu, ev, x, y, z) = if(min(co, ci(x,y,z))-1e-9,
 fn functions_of(i: usize, lobe: &ViewedLobe) -> String {
     let law = &lobe.law;
     let [slope, bend, sharpness] = [law.slope, law.bend, law.sharpness].map(number);
-    let strength = if law.is_power() {
+    let strength = if law.is_power() && law.slope == 0.0 {
+        "1".to_owned()
+    } else if law.is_power() {
         format!("cv^{slope}")
     } else {
         format!("(1 + (max(1/sq(cv)-1, 0)/{bend})^({sharpness}/2))^(-{slope}/{sharpness})")

@@ -21,7 +21,8 @@ BIN = pathlib.Path(pyradiance.__file__).parent / "bin"
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
 OBSERVATIONS = [0.1, 0.2, 0.33, 0.5, 1.0, 1.5, 2.0]
 ENTRANCES = [-4.0, 5.0, 20.0, 30.0, 40.0, 70.0]
-# rtrace returns single precision, and `catseye measure` evaluates in it: 6e-4 by its own statement.
+# rtrace returns single precision, and `catseye measure` evaluates in it: 6e-4 down to a millionth of the peak by its own
+# statement, which at an entrance angle of 70 degrees was seen to hold down to a hundred-thousandth.
 BOUND = 1e-3
 # Single precision alone: what is printed has 7 digits.
 EXACT = 2e-6
@@ -103,7 +104,11 @@ class Radiance(unittest.TestCase):
         wide = pathlib.Path(folder.name) / "wide.mtlx"
         wide.write_text(WIDE)
         names = ["sheeting_astm_type_iii_white", "vest_iso20471", "tape_fmvss108_c2_red"]
-        for subject in [*(ROOT / "materials" / f"{name}.mtlx" for name in names), wide]:
+        # Under a rough coat, whose gloss a lamp is seen in, and under a smooth one, which mirrors.
+        smooth = pathlib.Path(folder.name) / "smooth.mtlx"
+        run(CATSEYE, "fit", "astm-d4956:iii:white", "--coat", "-o", smooth.name, "--quiet", folder=folder.name)
+        names.append("sheeting")
+        for subject in [*(ROOT / "materials" / f"{name}.mtlx" for name in names), wide, smooth]:
             sign = Sign(subject)
             for entrance in ENTRANCES:
                 rows = [(a, entrance) for a in OBSERVATIONS]
@@ -112,8 +117,12 @@ class Radiance(unittest.TestCase):
                 cosines = np.array([wo[2] * wi[2] for wo, wi in pairs])
                 for channel, values in {"r": found[:, 0], "luminance": found @ LUMINANCE}.items():
                     wanted = measured(subject, sign.path, rows, "--channel", channel)
-                    error = np.abs(values * cosines / wanted - 1)
-                    self.assertLess(error.max(), BOUND, (subject, entrance, channel, error))
+                    # One material has a rough coat, which lets a thousandth more through than a smooth one, and a
+                    # rough base, which is Lambert's here and all that is left below a hundredth of the peak.
+                    rough = subject.name == "sheeting.mtlx"
+                    floor = 0.01 if rough else 1e-5
+                    error = np.abs(values * cosines - wanted) / np.maximum(wanted, floor * wanted.max())
+                    self.assertLess(error.max(), 5e-3 if rough else BOUND, (subject, entrance, channel, error))
 
     def test_the_lobe_is_that_of_the_formula(self):
         """Out of the plane of incidence and on a tilted sign: numpy, from docs/theory.md sections 2, 3 and 10."""
@@ -142,6 +151,22 @@ class Radiance(unittest.TestCase):
             found = sign.brdf(wi, viewers, turned(random.normal(size=3)))[:, 1]
             wanted = np.array([f(wo, wi) for wo in viewers])
             self.assertLess(np.abs(found / wanted - 1).max(), EXACT, found / wanted)
+
+    def test_a_smooth_coat_mirrors(self):
+        """The surroundings of radiance 1, by the reflectance of the index 1.5."""
+        with tempfile.TemporaryDirectory() as folder:
+            run(CATSEYE, "fit", "astm-d4956:iii:white", "--coat", "-o", "m.mtlx", "--quiet", folder=folder)
+            sign = Sign(pathlib.Path(folder) / "m.mtlx")
+        scene = "\n".join(["void glow shine 0 0 4 1 1 1 0", "shine source sky 0 0 4 0 0 1 360", sign.text,
+                           f"{sign.name} polygon p 0 0 12 -1 -1 0 1 -1 0 1 1 0 -1 1 0"])
+        (sign.path / "scene.oct").write_bytes(run(BIN / "oconv", "-", folder=sign.path, text=scene.encode()))
+        for degrees in [0.0, 30.0, 60.0, 75.0]:
+            c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+            text = f"{-10 * s:.17g} 0 {10 * c:.17g} {s:.17g} 0 {-c:.17g}\n"
+            seen = run(BIN / "rtrace", "-h", "-w-", "-ab", "0", "scene.oct", folder=sign.path, text=text.encode())
+            t = np.sqrt(1 - (s / 1.5) ** 2)
+            wanted = 0.5 * (((c - 1.5 * t) / (c + 1.5 * t)) ** 2 + ((t - 1.5 * c) / (t + 1.5 * c)) ** 2)
+            self.assertLess(abs(float(seen.split()[0]) / wanted - 1), 1e-5, degrees)
 
     def test_the_back_is_black(self):
         sign = Sign(ROOT / "materials/sheeting_astm_type_iii_white.mtlx")

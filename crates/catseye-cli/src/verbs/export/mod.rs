@@ -19,7 +19,7 @@ use serde_json::{Value, json};
 
 use self::openmaterial::OpenMaterialArgs;
 use self::original::{Aims, Original};
-use self::parts::Parts;
+use self::parts::{LeftOut, Parts};
 use crate::failure::Usage;
 use crate::options::LibraryArgs;
 use crate::output::{Output, must_end_in};
@@ -172,18 +172,22 @@ impl Args {
         let output = Output::new(&self.output)?;
         let functions_output = Output::new(&functions)?;
         let original = Original::load(self)?;
-        let Parts { lobes, base } = Parts::of(&original.name, &original.material)?;
-        let brdf = |geometry: &Geometry| {
-            let lobes = lobes.iter().map(|lobe| luminance(lobe.eval(geometry.wo, geometry.wi)));
-            lobes.sum::<f64>() + luminance(base) / std::f64::consts::PI
-        };
+        let Parts { lobes, base, coat, left_out } = Parts::of(&original.name, &original.material)?;
+        let base =
+            if left_out.contains(&LeftOut::RoughBase) { original.base_by_day(coat.as_ref())? } else { base };
+        let name = &original.material.name;
+        let mut radiance = Radiance { name, remarks: &[], lobes: &lobes, base, coat };
+        let brdf = |geometry: &Geometry| luminance(radiance.eval(geometry.wo, geometry.wi));
         let deviations = Deviations::new(&original, &self.grid(&original)?, brdf);
-        let remarks = self.remarks(&original, &deviations);
-        let radiance = Radiance { name: &original.material.name, remarks: &remarks, lobes: &lobes, base };
+        let left_out: Vec<&str> = left_out.into_iter().map(LeftOut::sentence).collect();
+        let mut remarks = self.remarks(&original, &deviations);
+        remarks.extend(left_out.iter().map(|&sentence| sentence.to_owned()));
+        radiance.remarks = &remarks;
         let file = functions.file_name().and_then(OsStr::to_str).unwrap_or_default();
         functions_output.write(radiance.functions().as_bytes())?;
         output.write(radiance.material(file).as_bytes())?;
-        self.say(&[&output, &functions_output], &deviations, "", &Value::Null)
+        let numbers = json!({ "left_out": left_out });
+        self.say(&[&output, &functions_output], &deviations, &left_out.join("\n"), &numbers)
     }
 
     /// `R_A` of the material over the angles that are asked for.

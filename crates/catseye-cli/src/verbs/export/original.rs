@@ -7,14 +7,14 @@ use anyhow::{Context as _, bail};
 use catseye::Model;
 use catseye_materialx::{Document, Material};
 use catseye_photometry::brdf::Cosine;
-use catseye_photometry::export::Colours;
+use catseye_photometry::export::{Coat, Colours};
 use catseye_photometry::fit::{Aim, FitOptions, Observation, fit};
 use catseye_photometry::{
     Apertures, Colour, Geometry, Goniometer, MaterialText, Quantity, Row, Table, luminance, to_mtlx,
 };
 
-use super::Args;
 use super::parts;
+use super::{Args, Target};
 use crate::instrument::Channel;
 use crate::instrument::goniometer::Photometer;
 use crate::instrument::table::{ENTRANCES_DEG, OBSERVATIONS_DEG, grid};
@@ -98,7 +98,7 @@ impl Original {
             bail!("{name}: the material has no retro-reflective lobe; there is nothing to export");
         }
         if args.target.has_lobes_only() {
-            parts::refuse_others(&name, &material)?;
+            parts::refuse_others(&name, &material, args.target == Target::Radiance)?;
         }
         let photometer = Photometer::new(&material, Model::Reciprocal, Channel::Luminance, None)?;
         Ok(Self { name, material, photometer, table: None, colour: None, observations: Vec::new() })
@@ -183,6 +183,14 @@ impl Original {
             rows.collect::<Result<_, _>>()?
         };
         Ok(Aims { observations: without_base(observations, base), colours, base })
+    }
+
+    /// The albedo of a Lambertian base that looks the same at 45/0 below the coat.
+    pub(super) fn base_by_day(&self, coat: Option<&Coat>) -> anyhow::Result<[f64; 3]> {
+        let day = Geometry::from(Goniometer::from_degrees(DAY_DEG, DAY_DEG, 0.0, 0.0));
+        let [through, gloss] =
+            coat.map_or([1.0, 0.0], |coat| [coat.transmitted(day.wo), coat.gloss(day.wo, day.wi)]);
+        Ok(self.photometer.rgb(&day)?.map(|f| PI * ((f - gloss) / through).max(0.0)))
     }
 
     /// Refuses a material whose lobe is wider in one direction of the sample than in another.

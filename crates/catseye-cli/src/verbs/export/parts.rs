@@ -1,13 +1,15 @@
 //! What a material is made of, and what of it other programs can't have.
 
 use anyhow::bail;
-use catseye_materialx::{Closure, Material, ShadingPoint};
-use catseye_photometry::export::{LobeSample, ViewedLobe};
+use catseye_materialx::{Closure, Material, ScatterMode, ShadingPoint};
+use catseye_photometry::export::{Coat, LobeSample, ViewedLobe};
 
 use crate::instrument::goniometer::varies_over_the_surface;
 
 /// Cosines between viewer and normal that a material is looked at.
 const COSINES: usize = 24;
+/// The widest roughness whose compensation is left out: it returns some thousandths of what the lobe does.
+const NARROW: f32 = 0.05;
 /// Sine of the polar angle from which on the viewer's projection has a direction.
 const LEAST_SINE: f32 = 1e-3;
 
@@ -29,6 +31,29 @@ enum Leaf {
 pub(super) struct Parts {
     pub(super) lobes: Vec<ViewedLobe>,
     pub(super) base: [f64; 3],
+    pub(super) coat: Option<Coat>,
+    pub(super) left_out: Vec<LeftOut>,
+}
+
+/// What of a material is approximated, and counts in its error.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum LeftOut {
+    /// A diffuse base that is rough, or depends on the viewer's direction, is Lambert's.
+    RoughBase,
+    /// The compensation of narrow lobes.
+    Compensation,
+}
+
+impl LeftOut {
+    /// The same as a sentence.
+    pub(super) fn sentence(self) -> &'static str {
+        match self {
+            Self::RoughBase => "the base is not Lambert's, and is here, of the same luminance factor at 45/0",
+            Self::Compensation => {
+                "multiscatter_tint is left out: of lobes so narrow it returns next to nothing"
+            }
+        }
+    }
 }
 
 /// Whether light is sent back by some lobe, as a viewer along the normal sees it.
@@ -37,10 +62,12 @@ pub(super) fn is_retro(material: &Material) -> bool {
     leaves.iter().any(|leaf| matches!(leaf, Leaf::Retro { .. } | Leaf::BackVector))
 }
 
-/// Refuses what is neither a retro-reflective lobe nor diffuse: a coat, glass, fibres, holes, a glow.
-pub(super) fn refuse_others(name: &str, material: &Material) -> anyhow::Result<()> {
+/// Refuses what is neither a retro-reflective lobe nor diffuse: glass, fibres, holes, a glow, a texture, and a clear
+/// coat over all of it unless there is room for one.
+pub(super) fn refuse_others(name: &str, material: &Material, has_coat: bool) -> anyhow::Result<()> {
     let surface = &material.surface;
-    let other = leaves(&surface.bsdf).into_iter().find_map(|leaf| match leaf {
+    let below = if has_coat { below_coat(&surface.bsdf).1 } else { &surface.bsdf };
+    let other = leaves(below).into_iter().find_map(|leaf| match leaf {
         Leaf::Other(node) => Some(format!("has a {node}")),
         _ => None,
     });
@@ -55,8 +82,8 @@ pub(super) fn refuse_others(name: &str, material: &Material) -> anyhow::Result<(
     let more = more.into_iter().find_map(|(is_so, what)| is_so.then(|| what.to_owned()));
     match other.or(more) {
         Some(part) => bail!(
-            "{name}: {part}, which this target can't carry beside the lobes; export the material without it, or \
-             to csv or openmaterial, which hold what is measured of the whole"
+            "{name}: {part}, which this target can't carry beside the lobes; export the material without it, \
+             or to csv or openmaterial, which hold what is measured of the whole"
         ),
         None => Ok(()),
     }
@@ -66,25 +93,25 @@ impl Parts {
     /// The lobes and the base, of a material that [`refuse_others`] lets pass, as formulas of the viewer's
     /// direction.
     pub(super) fn of(name: &str, material: &Material) -> anyhow::Result<Self> {
-        let head_on = leaves(&material.surface.bsdf);
+        let (coat, below) = below_coat(&material.surface.bsdf);
+        let head_on = leaves(below);
         let mut base = [0.0; 3];
+        let mut left_out = Vec::new();
         for leaf in &head_on {
             match leaf {
-                Leaf::Diffuse { color, lambert: true } => {
+                Leaf::Diffuse { color, lambert } => {
                     base = [0, 1, 2].map(|c| base[c] + f64::from(color[c]));
+                    left_out.extend((!lambert).then_some(LeftOut::RoughBase));
                 }
-                Leaf::Diffuse { .. } => bail!(
-                    "{name}: its diffuse base is rough, and Radiance has Lambert's only; set its roughness to 0, or \
-                     export it to csv"
-                ),
                 Leaf::BackVector => bail!(
-                    "{name}: has a back-vector lobe (retroreflective); Radiance is given retro_reflective_bsdf, \
-                     which `catseye fit` makes"
+                    "{name}: has a back-vector lobe (retroreflective); Radiance is given \
+                     retro_reflective_bsdf, which `catseye fit` makes; export it to csv"
                 ),
-                Leaf::Retro { compensated: true, .. } => bail!(
-                    "{name}: its multiscatter_tint can't be carried; leave it out (of lobes as narrow as \
-                     sheeting's it returns next to nothing), or export it to csv"
+                Leaf::Retro { compensated: true, roughness, .. } if roughness[0] > NARROW => bail!(
+                    "{name}: its multiscatter_tint can't be carried, and is not small at a roughness above \
+                     {NARROW}; leave it out, or export it to csv"
                 ),
+                Leaf::Retro { compensated: true, .. } => left_out.push(LeftOut::Compensation),
                 _ => {}
             }
         }
@@ -103,9 +130,13 @@ impl Parts {
         };
         let lobes: Vec<ViewedLobe> = lobes.map(lobe).collect::<anyhow::Result<_>>()?;
         if views.iter().any(|view| view.base() != base) {
-            bail!("{name}: its diffuse base depends on the viewer's direction; export it to csv instead");
+            left_out.insert(0, LeftOut::RoughBase);
         }
-        Ok(Self { lobes, base })
+        left_out.dedup();
+        if views.iter().any(|view| view.coat != coat) {
+            bail!("{name}: its coat depends on the viewer's direction; export it to csv instead");
+        }
+        Ok(Self { lobes, base, coat, left_out })
     }
 }
 
@@ -114,6 +145,7 @@ struct View {
     cosine: f32,
     /// Along the viewer's projection on the surface.
     projection: [f32; 3],
+    coat: Option<Coat>,
     leaves: Vec<Leaf>,
 }
 
@@ -126,7 +158,8 @@ impl View {
         [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0]].map(|projection: [f32; 3]| {
             let view = [-sine * projection[0], -sine * projection[1], -cosine];
             let surface = material.at(&ShadingPoint { view, ..ShadingPoint::default() });
-            Self { cosine, projection, leaves: leaves(&surface.bsdf) }
+            let (coat, below) = below_coat(&surface.bsdf);
+            Self { cosine, projection, coat, leaves: leaves(below) }
         })
     }
 
@@ -157,6 +190,25 @@ impl View {
             Leaf::Diffuse { color, .. } => [0, 1, 2].map(|c| sum[c] + f64::from(color[c])),
             _ => sum,
         })
+    }
+}
+
+/// The clear coat over all else, if there is one, and what is below.
+fn below_coat(closure: &Closure) -> (Option<Coat>, &Closure) {
+    let Closure::Layer { top, base } = closure else { return (None, closure) };
+    match **top {
+        Closure::Dielectric {
+            weight,
+            tint,
+            ior,
+            roughness: [u, v],
+            retroreflective: false,
+            scatter_mode,
+        } if tint == [1.0; 3] && u == v && scatter_mode == ScatterMode::Reflect => {
+            let [weight, ior, alpha] = [weight, ior, u].map(f64::from);
+            (Some(Coat { weight, ior, alpha }), base)
+        }
+        _ => (None, closure),
     }
 }
 
