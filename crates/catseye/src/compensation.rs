@@ -31,25 +31,35 @@ pub(crate) struct Compensation<T> {
 }
 
 impl<T: Real> Compensation<T> {
-    /// Prepares the lobe for the widths of the disk distribution.
-    pub(crate) fn new(widths: [T; 2]) -> Self {
+    /// Prepares the lobe for the widths of the disk distribution. Where nothing is compensated only its losses
+    /// are asked for: its norm is 0, and the table of its samples empty, which takes most of the time.
+    pub(crate) fn new(widths: [T; 2], is_used: bool) -> Self {
         let fit = FastFit::new(widths);
-        let first_ray = fit.ray([T::ONE, T::ZERO]);
         let table = [T::ZERO; NODES];
-        let mut lobe = Self { fit, norm: T::ZERO, first_ray, cumulated: table, density: table };
-        let quarter = if fit.isotropic { first_ray.energy * T::from_f64(FRAC_PI_2) } else { lobe.tabulate() };
-        lobe.norm = T::from_f64(0.25) / quarter;
-        lobe
+        let first_ray = fit.ray([T::ONE, T::ZERO]);
+        let lobe = Self { fit, norm: T::ZERO, first_ray, cumulated: table, density: table };
+        if is_used { lobe.normalized() } else { lobe }
+    }
+
+    /// The lobe with its norm and its table.
+    fn normalized(mut self) -> Self {
+        let quarter =
+            if self.fit.isotropic { self.first_ray.energy * T::from_f64(FRAC_PI_2) } else { self.tabulate() };
+        self.norm = T::from_f64(0.25) / quarter;
+        self
     }
 
     /// Fills the azimuthal table and returns the integral of the loss over a quarter of the disk.
     fn tabulate(&mut self) -> T {
         let step = T::from_f64(1.0 / (NODES - 1) as f64);
-        let mut integral = T::ZERO;
-        for i in 0..NODES {
+        // The nodes don't need each other: the compiler does several at once.
+        for (i, density) in self.density.iter_mut().enumerate() {
             let (turn, slope) = azimuth(step * T::from_f64(i as f64));
             let (sin, cos) = turn.sin_cos_turns();
-            self.density[i] = self.fit.energy(self.fit.in_frame([cos, sin])) * slope;
+            *density = self.fit.energy(self.fit.in_frame([cos, sin])) * slope;
+        }
+        let mut integral = T::ZERO;
+        for i in 0..NODES {
             // Simpson's rule for the norm, the trapezoid rule for what is sampled: the table is linear
             // between nodes.
             let simpson = if i == 0 || i == NODES - 1 { 1.0 } else { 2.0 + 2.0 * (i % 2) as f64 };
@@ -72,7 +82,8 @@ impl<T: Real> Compensation<T> {
 
     /// `1 - rho_avg`.
     pub(crate) fn average_loss(&self) -> T {
-        T::FRAC_1_PI / self.norm
+        let norm = if self.norm > T::ZERO { self.norm } else { self.normalized().norm };
+        T::FRAC_1_PI / norm
     }
 
     /// The share `1 - rho` that single scattering loses along w.

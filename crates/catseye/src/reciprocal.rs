@@ -37,12 +37,10 @@ impl<T: Real> Reciprocal<T> {
         params.validate()?;
         let disk = Disk::new(params.roughness());
         let mean = |[r, g, b]: [T; 3]| (r + g + b) * T::from_f64(1.0 / 3.0);
-        Ok(Self {
-            disk,
-            compensation: Compensation::new(disk.map_or([T::ONE; 2], |disk| [disk.m_u, disk.m_v])),
-            params: *params,
-            energies: [mean(params.tint), mean(params.multiscatter_tint)],
-        })
+        let energies = [mean(params.tint), mean(params.multiscatter_tint)];
+        let widths = disk.map_or([T::ONE; 2], |disk| [disk.m_u, disk.m_v]);
+        let compensation = Compensation::new(widths, energies[1] > T::ZERO);
+        Ok(Self { disk, compensation, params: *params, energies })
     }
 
     /// The cosine-weighted hemispherical mean of [`Lobe::albedo`], per channel: the share of diffuse light

@@ -61,7 +61,20 @@ struct Instruction {
     op: Op,
     /// Components of the result.
     width: u8,
-    sources: Box<[u32]>,
+    /// Registers; [`NONE`] where the operation has no more.
+    sources: [u32; MAX_SOURCES],
+}
+
+/// No register.
+const NONE: u32 = u32::MAX;
+/// What an operation reads where it has no source.
+const NOTHING: Lanes = [0.0; 4];
+
+impl Instruction {
+    /// The registers that it reads.
+    fn registers(&self) -> impl Iterator<Item = u32> {
+        self.sources.into_iter().filter(|&register| register != NONE)
+    }
 }
 
 /// Compiled patterns.
@@ -92,14 +105,11 @@ const MAX_SOURCES: usize = 4;
 impl Program {
     /// Computes all registers.
     pub(crate) fn run<'r>(&'r self, point: &ShadingPoint, registers: &'r mut Vec<Lanes>) -> Outputs<'r> {
-        registers.clear();
-        registers.reserve(self.instructions.len());
-        for instruction in &self.instructions {
-            let mut sources = [[0.0; 4]; MAX_SOURCES];
-            for (source, &register) in sources.iter_mut().zip(&instruction.sources) {
-                *source = registers[register as usize];
-            }
-            registers.push(instruction.op.apply(instruction.width, &sources, point, &self.textures));
+        registers.resize(self.instructions.len(), NOTHING);
+        for (i, Instruction { op, width, sources }) in self.instructions.iter().enumerate() {
+            let (before, after) = registers.split_at_mut(i);
+            let lanes = sources.map(|register| before.get(register as usize).unwrap_or(&NOTHING));
+            after[0] = op.apply(*width, lanes, point, &self.textures);
         }
         Outputs { registers, outputs: &self.outputs }
     }
@@ -169,13 +179,14 @@ impl Assembler {
         let mut next: Vec<u32> = results.iter().map(|result| result.register()).collect();
         while let Some(register) = next.pop() {
             if live.insert(register) {
-                next.extend(&all.instructions[register as usize].sources);
+                next.extend(all.instructions[register as usize].registers());
             }
         }
         let places: HashMap<u32, u32> = live.iter().copied().zip(0..).collect();
         let relocated = |register: &u32| {
             let mut instruction = all.instructions[*register as usize].clone();
-            instruction.sources.iter_mut().for_each(|source| *source = places[source]);
+            let used = instruction.sources.iter_mut().filter(|source| **source != NONE);
+            used.for_each(|source| *source = places[source]);
             instruction
         };
         let instructions = live.iter().map(relocated).collect();
@@ -187,7 +198,9 @@ impl Assembler {
 
 impl State {
     fn push(&mut self, op: Op, width: u8, sources: &[u32]) -> u32 {
-        let instruction = Instruction { op, width, sources: sources.into() };
+        let mut registers = [NONE; MAX_SOURCES];
+        registers[..sources.len()].copy_from_slice(sources);
+        let instruction = Instruction { op, width, sources: registers };
         if let Some(&register) = self.known.get(&instruction) {
             return register;
         }
@@ -195,10 +208,9 @@ impl State {
             let constants: Option<Vec<Lanes>> =
                 sources.iter().map(|&source| self.constants[source as usize]).collect();
             if let Some(constants) = constants {
-                let mut lanes = [[0.0; 4]; MAX_SOURCES];
-                lanes[..constants.len()].copy_from_slice(&constants);
+                let lanes = core::array::from_fn(|i| constants.get(i).unwrap_or(&NOTHING));
                 let point = ShadingPoint::default();
-                let result = op.apply(width, &lanes, &point, &self.program.textures);
+                let result = op.apply(width, lanes, &point, &self.program.textures);
                 return self.push(Op::constant(result), width, &[]);
             }
         }

@@ -97,6 +97,19 @@ pub(crate) enum Op {
     ArtisticExtinction,
 }
 
+/// What keeps the bits of the components that a result has, by its width.
+const MASKS: [[u32; 4]; 8] = {
+    let mut masks = [[u32::MAX; 4]; 8];
+    let mut i = 0;
+    while i < 16 {
+        if i % 4 >= i / 4 {
+            masks[i / 4][i % 4] = 0;
+        }
+        i += 1;
+    }
+    masks
+};
+
 impl Op {
     pub(crate) fn constant(lanes: Lanes) -> Self {
         Self::Constant(lanes.map(f32::to_bits))
@@ -111,19 +124,26 @@ impl Op {
     pub(crate) fn apply(
         self,
         width: u8,
-        s: &[Lanes; 4],
+        s: [&Lanes; 4],
         point: &ShadingPoint,
         textures: &[Arc<Texture>],
     ) -> Lanes {
-        let mut result = self.lanes(width, s, point, textures);
-        result[usize::from(width).min(4)..].fill(0.0);
-        result
+        let result = self.lanes(width, s, point, textures);
+        let mask = &MASKS[usize::from(width) & 7];
+        core::array::from_fn(|i| f32::from_bits(result[i].to_bits() & mask[i]))
     }
 
-    fn lanes(self, width: u8, s: &[Lanes; 4], point: &ShadingPoint, textures: &[Arc<Texture>]) -> Lanes {
+    fn lanes(self, width: u8, s: [&Lanes; 4], point: &ShadingPoint, textures: &[Arc<Texture>]) -> Lanes {
         let [a, b, c, _] = s;
         let one = |f: fn(f32) -> f32| a.map(f);
         let two = |f: fn(f32, f32) -> f32| core::array::from_fn(|i| f(a[i], b[i]));
+        // What takes long is computed for the components that there are.
+        let each = |f: &dyn Fn(usize) -> f32| {
+            let mut lanes = [0.0; 4];
+            lanes.iter_mut().take(usize::from(width)).enumerate().for_each(|(i, lane)| *lane = f(i));
+            lanes
+        };
+        let slow = |f: fn(f32) -> f32| each(&|i| f(a[i]));
         let three = |f: fn(f32, f32, f32) -> f32| core::array::from_fn(|i| f(a[i], b[i], c[i]));
         let truth = |x: bool| scalar(f32::from(u8::from(x)));
         match self {
@@ -134,10 +154,10 @@ impl Op {
             Self::Multiply => two(|a, b| a * b),
             Self::Divide => two(|a, b| if b == 0.0 { 0.0 } else { a / b }),
             Self::Modulo => two(|a, b| if b == 0.0 { 0.0 } else { a - b * (a / b).floor() }),
-            Self::Power => two(f32::powf),
+            Self::Power => each(&|i| a[i].powf(b[i])),
             Self::Min => two(f32::min),
             Self::Max => two(f32::max),
-            Self::Atan2 => two(f32::atan2),
+            Self::Atan2 => each(&|i| a[i].atan2(b[i])),
             Self::Abs => one(f32::abs),
             Self::Sign => one(|x| if x == 0.0 { 0.0 } else { x.signum() }),
             Self::Floor => one(f32::floor),
@@ -145,13 +165,13 @@ impl Op {
             Self::Round => one(f32::round),
             Self::Fract => one(|x| x - x.floor()),
             Self::Sqrt => one(|x| x.max(0.0).sqrt()),
-            Self::Sin => one(f32::sin),
-            Self::Cos => one(f32::cos),
-            Self::Tan => one(f32::tan),
-            Self::Asin => one(|x| x.clamp(-1.0, 1.0).asin()),
-            Self::Acos => one(|x| x.clamp(-1.0, 1.0).acos()),
-            Self::Ln => one(|x| x.max(f32::MIN_POSITIVE).ln()),
-            Self::Exp => one(f32::exp),
+            Self::Sin => slow(f32::sin),
+            Self::Cos => slow(f32::cos),
+            Self::Tan => slow(f32::tan),
+            Self::Asin => slow(|x| x.clamp(-1.0, 1.0).asin()),
+            Self::Acos => slow(|x| x.clamp(-1.0, 1.0).acos()),
+            Self::Ln => slow(|x| x.max(f32::MIN_POSITIVE).ln()),
+            Self::Exp => slow(f32::exp),
             Self::Mix => three(|bg, fg, t| bg * (1.0 - t) + fg * t),
             Self::Smoothstep => three(smoothstep),
             Self::Greater => truth(a[0] > b[0]),

@@ -1,6 +1,7 @@
 //! The diagrams of a fit's report, and what is said below each.
 
 use catseye::Vec3;
+use catseye_photometry::brdf::BrdfSample;
 use catseye_photometry::fit::{Aim, Observation};
 use catseye_photometry::{ApertureRule, Geometry, Limit, PreparedSheeting, Quantity, Row};
 
@@ -21,8 +22,10 @@ const NEAR_SHARE: f64 = 0.05;
 const MOST_MARKS: usize = 300;
 /// Where the axis of the entrance angle ends at least, as far as a fit is checked, and at most.
 const LAST_ENTRANCE_DEG: [f64; 2] = [75.0, 88.0];
-/// Steps of a BRDF's curve.
-const STEPS: u32 = 240;
+/// Steps of a BRDF's curve: mirror peaks are narrow.
+const STEPS: u32 = 480;
+/// Angle from the normal that a BRDF is drawn to, in degrees: beyond it measurements are bad.
+const LAST_VIEW_DEG: f64 = 85.0;
 /// How far from the plane of incidence a direction may be to stand for one in it: half a degree.
 const IN_PLANE: f64 = 9e-3;
 
@@ -160,10 +163,17 @@ pub(crate) fn residuals(outcome: &Outcome<'_>) -> Drawing<Residuals> {
     Drawing { figure: Residuals { rows, tolerance }, caption }
 }
 
-/// A measured BRDF in the plane of incidence, a curve for each direction of the light; `None` of a table.
-pub(crate) fn brdf(outcome: &Outcome<'_>, rule: &ApertureRule) -> anyhow::Result<Option<Drawing<Chart>>> {
-    let samples: Vec<[f64; 3]> = outcome.observations.iter().filter_map(in_plane).collect();
-    if !outcome.subject.is_brdf() || samples.is_empty() {
+/// A measured BRDF in the plane of incidence, within an angle from the lamp, a curve for each direction of the
+/// light; `None` of a table, and of a file without samples there.
+pub(crate) fn brdf(
+    outcome: &Outcome<'_>,
+    rule: &ApertureRule,
+    reach_deg: f64,
+) -> anyhow::Result<Option<Drawing<Chart>>> {
+    let Some(file) = outcome.subject.brdf() else { return Ok(None) };
+    let samples = file.samples.iter().filter_map(in_plane);
+    let samples: Vec<[f64; 3]> = samples.filter(|[_, x, y]| x.abs() <= reach_deg && *y > 0.0).collect();
+    if samples.is_empty() {
         return Ok(None);
     }
     let mut lights: Vec<f64> = samples.iter().map(|[light, ..]| *light).collect();
@@ -180,7 +190,7 @@ pub(crate) fn brdf(outcome: &Outcome<'_>, rule: &ApertureRule) -> anyhow::Result
             let [wo, wi] = [light + x, light].map(|deg| Vec3::from_angles(deg.to_radians(), 0.0));
             (x, seen(&prepared, rule, &Geometry { wo, wi }))
         };
-        let points = (0..=STEPS).map(at).filter(|(x, _)| (light + x).abs() < 89.0).collect();
+        let points = (0..=STEPS).map(at).filter(|(x, _)| (light + x).abs() < LAST_VIEW_DEG).collect();
         Curve { label: format!("{}°", signed(light)), points }
     };
     let mark = |&[light, x, y]: &[f64; 3]| {
@@ -199,23 +209,24 @@ pub(crate) fn brdf(outcome: &Outcome<'_>, rule: &ApertureRule) -> anyhow::Result
         curves: lights.iter().map(curve).collect(),
         marks: evenly(&marks, MOST_MARKS),
     };
-    let (shown, of) = (figure.marks.len(), outcome.observations.len());
+    let (shown, all) = (figure.marks.len(), file.samples.len());
     let caption = format!(
-        "Lines: the material as the instrument sees it. Dots: the samples in the plane of incidence, {shown} \
-         of the {of} that were fitted. Grey: beyond them."
+        "Lines: the material as the instrument sees it. Dots: {shown} of the file's {all} samples, in the \
+         plane of incidence."
     );
     Ok(Some(Drawing { figure, caption }))
 }
 
 /// Of a sample in the plane of incidence: the light's angle from the normal to a tenth of a degree, how much
 /// farther from the normal the viewer is, both in degrees, and the value.
-fn in_plane(sample: &Observation) -> Option<[f64; 3]> {
-    let Geometry { wo, wi } = sample.centre();
+fn in_plane(sample: &BrdfSample) -> Option<[f64; 3]> {
+    let BrdfSample { wo, wi, .. } = *sample;
     let length = wi.x.hypot(wi.y);
     // Light along the normal has all planes.
     let [x, y] = if length > IN_PLANE { [wi.x / length, wi.y / length] } else { [1.0, 0.0] };
     let (along, across) = (wo.x * x + wo.y * y, wo.y * x - wo.x * y);
     let light = length.atan2(wi.z).to_degrees();
     let viewer = along.atan2(wo.z).to_degrees();
-    (across.abs() < IN_PLANE).then(|| [(10.0 * light).round() / 10.0, viewer - light, sample.value])
+    (across.abs() < IN_PLANE && viewer.abs() < LAST_VIEW_DEG)
+        .then(|| [(10.0 * light).round() / 10.0, viewer - light, sample.luminance()])
 }

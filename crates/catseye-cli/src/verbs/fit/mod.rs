@@ -13,7 +13,7 @@ use catseye::Model;
 use catseye_photometry::brdf::{BrdfFitError, Cosine, Part};
 use catseye_photometry::fit::{EntranceKind, Fit, FitError, FitOptions, Observation, fit};
 use catseye_photometry::half_power::roughness_from_half_power_angle;
-use catseye_photometry::{ApertureRule, Apertures, Colour, MaterialText, to_mtlx};
+use catseye_photometry::{Apertures, Colour, MaterialText, to_mtlx};
 use clap::ValueEnum;
 
 use self::outcome::Outcome;
@@ -133,7 +133,6 @@ struct Job {
     parts: Vec<Part>,
     options: FitOptions,
     colour: Colour,
-    rule: ApertureRule,
     material: Option<Output>,
     page: Option<Output>,
 }
@@ -147,8 +146,7 @@ impl Args {
             let is_written = found.acceptable && outcome.fault().is_none();
             let context = Context {
                 title: self.name.as_ref().unwrap_or(&job.subject.title),
-                rule: &job.rule,
-                aperture_deg: self.aperture_deg,
+                apertures: job.apertures,
                 colour: job.colour,
                 area_m2: self.area_m2,
                 material: job.material.as_ref().filter(|_| is_written).map(Output::name),
@@ -190,7 +188,7 @@ impl Args {
             tolerance: 0.01 * self.tolerance.unwrap_or(if subject.is_brdf() { BRDF_TOLERANCE } else { 5.0 }),
             ..options
         };
-        Ok(Job { subject, observations, apertures, rule, parts: Vec::new(), options, colour, material, page })
+        Ok(Job { subject, observations, apertures, parts: Vec::new(), options, colour, material, page })
     }
 
     /// The material's file and the report's.

@@ -44,8 +44,8 @@ impl Outcome<'_> {
         if let Some(metrics) = self.metrics() {
             let (count, most) = (metrics.count, percent(metrics.percentile_95()));
             return format!(
-                "rms of the {count} samples around the incident direction {rms}, 95 % of them within {most}, {}, \
-                 tolerance {tolerance}",
+                "rms of the {count} samples around the incident direction {rms}, 95 % of them within {most}, \
+                 {}, tolerance {tolerance}",
                 self.all_but(metrics)
             );
         }
@@ -59,7 +59,8 @@ impl Outcome<'_> {
                 "rms of {rows} values {rms}, tolerance {tolerance} rms; worst {worst} off{spare}"
             );
         }
-        format!("worst of {rows} values {worst} off, rms {rms}, tolerance {tolerance}{spare}")
+        let noun = if rows == 1 { "value" } else { "values" };
+        format!("worst of {rows} {noun} {worst} off, rms {rms}, tolerance {tolerance}{spare}")
     }
 
     /// Whether the tolerance is of the root mean square, so that no row has one.
@@ -92,7 +93,8 @@ impl Outcome<'_> {
         let retro = self.observations.iter().filter(|row| row.is_retro()).map(angles_deg);
         let [observation, entrance] = [0, 1].map(|i| range(retro.clone().map(|angles| angles[i])));
         let count = self.observations.len();
-        format!("{count} values of {what}, observation {observation} deg, entrance {entrance} deg")
+        let noun = if count == 1 { "value" } else { "values" };
+        format!("{count} {noun} of {what}, observation {observation} deg, entrance {entrance} deg")
     }
 
     /// The rows to list with their ratios and whether they are met: all of a table, of a long one those that

@@ -4,27 +4,29 @@ use catseye_photometry::brdf::Part;
 use catseye_photometry::fit::{Estimate, Trial};
 use catseye_photometry::standards::{Catalogue, StandardClass};
 use catseye_photometry::verdict::{Check, Kind, Standing, Verdict, verdicts};
-use catseye_photometry::{ApertureRule, Colour, Geometry, Limit, Quantity, Unit, significant};
+use catseye_photometry::{Apertures, Colour, Geometry, Limit, Quantity, Unit, significant};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::figures::{self, Drawing};
 use super::outcome::{Outcome, describe, percent, short};
 use super::provenance;
+use crate::plot::axes::signed;
 use crate::plot::figure::{self, Figure};
 use crate::plot::ra::Over;
 
 const STYLE: &str = include_str!("page.css");
 /// Classes that are failed and listed: those that are missed by least.
 const MOST_FAILED: usize = 5;
+/// A measured BRDF is drawn up to this angle from the lamp, and as a whole.
+const NEAR_DEG: f64 = 20.0;
 
 /// What the page needs beside the outcome.
 #[derive(Debug)]
 pub(crate) struct Context<'a> {
     /// What the page is about.
     pub(crate) title: &'a str,
-    /// The instrument's apertures, and their diameter in degrees.
-    pub(crate) rule: &'a ApertureRule,
-    pub(crate) aperture_deg: f64,
+    /// The instrument's apertures.
+    pub(crate) apertures: Apertures,
     /// The material's colour.
     pub(crate) colour: Colour,
     /// Area of a whole reflector.
@@ -35,13 +37,14 @@ pub(crate) struct Context<'a> {
 
 /// The whole page.
 pub(crate) fn page(outcome: &Outcome<'_>, context: &Context<'_>) -> anyhow::Result<String> {
-    let (title, rule) = (context.title, context.rule);
+    let (title, rule) = (context.title, &context.apertures.rule()?);
     let source = &outcome.subject.title;
     let fitted_to = if source == title { "photometric values" } else { source.as_str() };
     let drawings = [
         drawing(figures::r_a(outcome, rule, Over::Observation)?)?,
         drawing(figures::r_a(outcome, rule, Over::Entrance)?)?,
-        drawing(figures::brdf(outcome, rule)?)?,
+        drawing(figures::brdf(outcome, rule, NEAR_DEG)?)?,
+        drawing(figures::brdf(outcome, rule, 180.0)?)?,
         drawing(Some(figures::residuals(outcome)))?,
     ];
     let page = html! {
@@ -60,7 +63,7 @@ pub(crate) fn page(outcome: &Outcome<'_>, context: &Context<'_>) -> anyhow::Resu
                 (verdict(outcome))
                 (facts(outcome, context)?)
                 (notes(outcome))
-                h2 { "Curves" }
+                h2 { "Diagrams" }
                 @for drawing in &drawings { (drawing) }
                 (standards(outcome, context)?)
                 @if !outcome.subject.rows.is_empty() { (values(outcome)) }
@@ -98,9 +101,9 @@ fn verdict(outcome: &Outcome<'_>) -> Markup {
 /// Where the result comes from.
 fn facts(outcome: &Outcome<'_>, context: &Context<'_>) -> anyhow::Result<Markup> {
     let subject = outcome.subject;
-    let apertures = match context.aperture_deg {
+    let apertures = match context.apertures.source.to_degrees() {
         0.0 => "points (no aperture was given)".to_owned(),
-        diameter => format!("{diameter}\u{b0}, source and receiver"),
+        diameter => format!("{}\u{b0}, source and receiver", short(diameter)),
     };
     Ok(html! {
         table.facts {
@@ -185,8 +188,9 @@ fn standards(outcome: &Outcome<'_>, context: &Context<'_>) -> anyhow::Result<Mar
                 @for verdict in shown { (standard(verdict)) }
             }
             p.small {
-                "Classes of the same colour whose values come with the program; `catseye standards \
-                 list` names their sources. Not judged: " (first.not_judged().join(", ")) ". No guard band."
+                "Classes of the same colour whose values come with the program; "
+                code { "catseye standards list" } " names their sources. Not judged: "
+                (first.not_judged().join(", ")) ". No guard band."
                 @if !left.is_empty() { " " (left.len()) " more classes are not met." }
             }
         }
@@ -205,7 +209,7 @@ fn standard(verdict: &Verdict<'_>) -> Markup {
     html! {
         tr {
             td { (verdict.class().title()) } td class=(class) { (word) }
-            td { (row.observation_deg) "\u{b0}, " (row.entrance_deg) "\u{b0}" }
+            td { (angle(row.observation_deg)) ", " (angle(row.entrance_deg)) }
             td { (symbol(row.quantity)) " " (found) } td { (bound) " " (asked) " " (unit(row.unit)) }
         }
     }
@@ -225,8 +229,8 @@ fn values(outcome: &Outcome<'_>) -> Markup {
             @for (row, ratio, is_met) in &rows {
                 @let value = row.value_as_written().unwrap_or(f64::NAN);
                 tr {
-                    td { (symbol(row.quantity)) } td { (row.observation_deg) "\u{b0}" }
-                    td { (row.entrance_deg) "\u{b0}" } td { (row.rotation_deg) "\u{b0}" }
+                    td { (symbol(row.quantity)) } td { (angle(row.observation_deg)) }
+                    td { (angle(row.entrance_deg)) } td { (angle(row.rotation_deg)) }
                     td { (short(value)) } td.text { (unit(row.unit)) } td { (short(value * ratio)) }
                     td.off[!is_met] { (off_by(*ratio)) }
                 }
@@ -321,6 +325,10 @@ fn symbol(quantity: Quantity) -> Markup {
         Some((letter, index)) => html! { (letter) sub { (index) } },
         None => html! { (quantity.symbol()) },
     }
+}
+
+fn angle(deg: f64) -> String {
+    format!("{}\u{b0}", signed(deg))
 }
 
 fn unit(unit: Unit) -> String {
