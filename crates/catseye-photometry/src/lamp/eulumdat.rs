@@ -60,13 +60,8 @@ pub(super) fn parse(bytes: &[u8], name: &str, axis: Option<Axis>) -> Result<Net,
         let value = items.next("an intensity")? * factor;
         intensities.push(text.intensity(items.line, value)?);
     }
-    let mut net = Net { kind, symmetry, planes, angles: gammas, intensities };
-    if symmetry == Symmetry::None {
-        // The planes end before 360 degrees, which is the first again.
-        net.planes.push(net.planes[0] + 360.0);
-        net.intensities.extend_from_within(..net.angles.len());
-    }
-    Ok(net)
+    let net = Net { kind, symmetry, planes, angles: gammas, intensities };
+    Ok(if symmetry == Symmetry::None { net.closed() } else { net })
 }
 
 /// The planes that have intensities; they must be where the symmetry has its mirrors.

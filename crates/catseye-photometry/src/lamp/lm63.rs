@@ -13,7 +13,8 @@
 //!    one.
 //!
 //! Types A and B whose horizontal angles begin at 0 are alike to the left. Type C is alike in all planes with
-//! one horizontal angle, in both halves where they end at 180, in the quarters where they end at 90.
+//! one horizontal angle, in both halves where they end at 180, in the quarters where they end at 90; what ends a
+//! step before 360 is closed.
 
 use super::Axis;
 use super::net::{Kind, Net, Symmetry};
@@ -73,6 +74,9 @@ pub(super) fn parse(bytes: &[u8], name: &str, axis: Option<Axis>) -> Result<Net,
         return Err(text.line(angles_line, "one vertical angle makes no lamp".to_owned()));
     }
     let (first, last) = (planes[0], planes[planes.len() - 1]);
+    // Some writers leave out 360 degrees, which is 0 again: the gap is then a step like the others.
+    let step = planes.windows(2).map(|pair| pair[1] - pair[0]).fold(0.0, f64::max);
+    let is_round = is_c && last > 180.0 && last < 360.0 && 360.0 - last <= 1.001 * step;
     let symmetry = match (is_c, planes.len()) {
         (true, 1) => Symmetry::Rotation,
         (false, 1) => return Err(text.line(planes_line, "one horizontal angle makes no lamp".to_owned())),
@@ -80,14 +84,15 @@ pub(super) fn parse(bytes: &[u8], name: &str, axis: Option<Axis>) -> Result<Net,
         (false, _) => Symmetry::None,
         (true, _) if first == 0.0 && last == 90.0 => Symmetry::Both,
         (true, _) if first == 0.0 && last == 180.0 => Symmetry::C0C180,
-        (true, _) if first == 0.0 && last == 360.0 => Symmetry::None,
+        (true, _) if first == 0.0 && (last == 360.0 || is_round) => Symmetry::None,
         (true, _) => {
             let problem =
                 format!("the horizontal angles of Type C are {first} to {last}, not 0 to 0, 90, 180 or 360");
             return Err(text.line(planes_line, problem));
         }
     };
-    Ok(Net { kind, symmetry, planes, angles, intensities })
+    let net = Net { kind, symmetry, planes, angles, intensities };
+    Ok(if is_round { net.closed() } else { net })
 }
 
 /// The numbers behind `TILT=`, wherever lines end.

@@ -47,6 +47,13 @@ pub(super) struct Net {
 }
 
 impl Net {
+    /// The net of all C planes with the first once more, a turn on.
+    pub(super) fn closed(mut self) -> Self {
+        self.planes.extend(self.planes.first().map(|first| first + 360.0));
+        self.intensities.extend_from_within(..self.angles.len());
+        self
+    }
+
     /// The intensity in a direction of the Type A goniometer; nothing outside the net.
     pub(super) fn intensity_cd(&self, right_deg: f64, up_deg: f64) -> Option<f64> {
         let [plane, angle] = self.kind.angles_deg(right_deg, up_deg);

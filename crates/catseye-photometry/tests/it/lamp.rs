@@ -105,6 +105,8 @@ fn every_type_of_lm_63_has_the_same_beam() {
     let (around, down) = (steps(0.0, 360.0, 1.0), steps(0.0, 180.0, 1.0));
     let c = lm63(1, &around, &down, |c, g| skewed(of_c_ahead(c, g)));
     has(&Lamp::parse_lm63(c.as_bytes(), "c.ies", Some(Axis::Ahead)).unwrap(), skewed);
+    let open = lm63(1, &around[..360], &down, |c, g| skewed(of_c_ahead(c, g)));
+    has(&Lamp::parse_lm63(open.as_bytes(), "c.ies", Some(Axis::Ahead)).unwrap(), skewed);
     let c = lm63(1, &around, &down, |c, g| skewed(of_c_down(c, g)));
     has(&Lamp::parse_lm63(c.as_bytes(), "c.ies", Some(Axis::Down)).unwrap(), skewed);
 }
