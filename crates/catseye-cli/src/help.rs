@@ -69,17 +69,27 @@ const VALUES: &str = "\
 Table format:
   A header line, then one row per geometry or value; columns in any order:
     observation_deg   between source and receiver, in [0, 180)
-    entrance_deg      between source and surface normal, in (-90, 90); above 0
-                      the normal is tipped towards the receiver
+    entrance_deg      between source and surface normal (beta_1), in (-90, 90);
+                      above 0 the normal is tipped towards the receiver
+    beta_2_deg        across it, in (-90, 90) [default: 0]
     rotation_deg      of the sample about its normal, in [-360, 360] [default: 0]
     quantity          R_A, R_L, R_I, R_Phi, R_T, Q_d, Y or f [default: by the unit]
     unit              cd/lx/m2, mcd/lx/m2, cd/fc/ft2, cd/lx, mcd/lx, cd/fc, 1/sr,
                       1 or % [default: the quantity's, or cd/lx/m2]
     value             needed where values are compared
+    uncertainty       one standard deviation, in the unit or as 3% of the value
     limit             minimum, maximum or typical
+    wavelength_nm     where it was not white light
+    source_aperture_deg, receiver_aperture_deg
+                      full angles of the instrument's apertures
     standard, class, colour, source
+  - Data sheets are read as they come: `,`, `;`, `|` or tabs between columns,
+    decimal commas, names in any case and their synonyms (obs, alpha, ent, beta,
+    beta_1, R_A, SIA, ...), units behind a name: R_A [cd/lx/m2], alpha (deg).
+  - Angles are minutes of arc where the name or the cell says so: observation_min,
+    alpha ('), 12'.
   - Other columns are carried through; one named model is replaced.
-  - Capitals in the header don't matter. An empty cell is a missing one.
+  - An empty cell is a missing one.
   - A bad row is an error that names line and column; nothing is printed then.";
 
 /// Examples of `catseye export`.
@@ -148,8 +158,12 @@ pub(crate) const PLOT_SPHERES: &str = "\
 Example:
   $ catseye plot spheres --roughness 0.15 -o spheres.png";
 
-/// Examples of `catseye fit`.
-pub(crate) const FIT: &str = "\
+/// The format of tables of values, and examples of `catseye fit`.
+pub(crate) fn fit() -> String {
+    format!("{VALUES}\n\n{FIT}")
+}
+
+const FIT: &str = "\
 Example:
   $ catseye fit astm-d4956:iii:white --luminance-factor 0.27 -o sign.mtlx --report sign.html
   $ catseye standards show fra-224:white > sheet.csv

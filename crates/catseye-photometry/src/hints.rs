@@ -34,8 +34,8 @@ fn angles(retro: &[&Row]) -> Option<String> {
         )
     } else {
         format!(
-            "every observation angle is {angle} degrees or more, where sheeting hardly shines; are they minutes \
-             of arc? Then name the column observation_min, or write {angle}'"
+            "every observation angle is {angle} degrees or more, where sheeting hardly shines; are they \
+             minutes of arc? Then name the column observation_min, or write {angle}'"
         )
     })
 }
@@ -46,8 +46,8 @@ fn tails(retro: &[&Row]) -> Option<String> {
     let count = retro.iter().filter(is_tail).count();
     (count > 0).then(|| {
         format!(
-            "{count} values are below a ten thousandth of the greatest: without a column uncertainty they count \
-             in percent as much as the others do"
+            "{count} values are below a ten thousandth of the greatest: without a column uncertainty they \
+             count in percent as much as the others do"
         )
     })
 }

@@ -492,3 +492,81 @@ fn the_fitted_materials_are_what_their_commands_write() {
         }
     }
 }
+
+/// A table of one lobe: half power at 0.4 degrees, cos^2, at so many entrance angles; `cell` adds to a row.
+fn one_lobe(header: &str, cell: impl Fn(usize, f64) -> String) -> String {
+    let mut sheet = format!("observation_deg,entrance_deg,value{header}\n");
+    let mut row = 0;
+    for observation in [0.1, 0.2, 0.33, 0.5] {
+        for entrance in [-4.0_f64, 15.0, 30.0] {
+            let fall = entrance.to_radians().cos().powi(2);
+            let value = 300.0 * fall * 0.5_f64.powf((observation / 0.4_f64).powi(2));
+            sheet += &format!("{observation},{entrance},{}\n", cell(row, value));
+            row += 1;
+        }
+    }
+    sheet
+}
+
+#[test]
+fn what_a_table_says_of_its_values_is_used_or_refused() {
+    let plain = one_lobe("", |_, value| value.to_string());
+    let slip = one_lobe("", |row, value| if row == 5 { 10.0 * value } else { value }.to_string());
+    let mixed =
+        one_lobe(",uncertainty", |row, value| format!("{value},{}", if row == 3 { "" } else { "2%" }));
+    let several =
+        one_lobe(",wavelength_nm", |row, value| format!("{value},{}", if row == 3 { "905" } else { "" }));
+    let minutes = "obs,ent,value\n12,-4,380\n12,30,215\n30,-4,135\n30,30,75\n";
+    let cases: &[(&str, &str, i32, &str)] = &[
+        (
+            &plain,
+            "--at-least",
+            2,
+            "--at-least: no row of t.csv is a minimum; write `minimum` in a column `limit`",
+        ),
+        (&mixed, "", 1, "t.csv:5: column uncertainty: is empty, other rows have one"),
+        (&several, "", 1, "t.csv:5: is of 905 nm, the first row of white light; keep the rows of one"),
+        (&plain, "--tolerance 5 --tolerance-rms 5", 2, "cannot be used with"),
+        (&slip, "--lobes 1 --entrance power", 1, "t.csv: no acceptable fit"),
+        (minutes, "", 1, "t.csv: no"),
+    ];
+    for (text, options, code, message) in cases {
+        let bench = Bench::new();
+        bench.write("t.csv", text);
+        let fit = bench.catseye(&format!("fit t.csv {options}"), "");
+        assert_eq!(fit.code, *code, "{options}: {}{}", fit.stdout, fit.stderr);
+        assert!(fit.stderr.contains(message), "{options}: {}\nwanted {message}", fit.stderr);
+    }
+    let bench = Bench::new();
+    bench.write("slip.csv", &slip);
+    bench.write("minutes.csv", minutes);
+    let fit = bench.catseye("fit slip.csv --lobes 1 --entrance power", "");
+    assert!(
+        fit.stdout.contains("slip.csv:7: 1892") && fit.stdout.contains("is 9.99 times"),
+        "{}",
+        fit.stdout
+    );
+    let fit = bench.catseye("fit minutes.csv", "");
+    assert!(fit.stdout.contains("are they minutes of arc?"), "{}", fit.stdout);
+}
+
+#[test]
+fn standard_deviations_come_from_the_table_or_are_not_known() {
+    let bench = Bench::new();
+    bench.write("stated.csv", &one_lobe(",uncertainty", |_, value| format!("{value},2%")));
+    bench.write("limits.csv", &one_lobe(",limit", |_, value| format!("{value},minimum")));
+    let told = |command: &str| -> Value {
+        let fit = bench.catseye(&format!("{command} --lobes 1 --entrance power --json"), "");
+        assert_eq!((fit.code, fit.stderr.as_str()), (0, ""), "{command}");
+        serde_json::from_str(&fit.stdout).unwrap()
+    };
+    let strength = |told: &Value| {
+        let number = &told["numbers"][0];
+        [&number["low"], &number["high"]].map(Value::as_f64)
+    };
+    let [Some(low), Some(high)] = strength(&told("fit stated.csv")) else { panic!() };
+    // 2 % over the square root of twelve rows and more, as three numbers share them.
+    assert!((1.012..1.03).contains(&(high / low)), "{low} to {high}");
+    assert_eq!(strength(&told("fit stated.csv")), strength(&told("fit stated.csv --tolerance 12")));
+    assert_eq!(strength(&told("fit limits.csv --at-least --tolerance 30")), [None, None]);
+}

@@ -122,6 +122,7 @@ impl Selection {
 pub(super) fn rows(samples: Vec<&BrdfSample>, apertures: &ApertureRule) -> Vec<Observation> {
     let row = |sample: &BrdfSample| Observation {
         value: sample.luminance(),
+        uncertainty: None,
         aim: Aim::Equal,
         views: apertures
             .directions(sample.wo, sample.wi)

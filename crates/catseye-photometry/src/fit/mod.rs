@@ -9,6 +9,7 @@
 mod error;
 mod form;
 mod observation;
+mod outlier;
 mod physical;
 mod problem;
 mod select;
@@ -20,10 +21,11 @@ pub use error::{FitError, MAX_VALUES};
 pub use form::{EntranceKind, Form, Meaning};
 pub(crate) use observation::RETRO_REACH;
 pub use observation::{Aim, Observation, RowError, View};
+pub use outlier::Outlier;
 pub use physical::Fault;
 pub use select::MAX_LOBES;
 pub use shape::ShapeBound;
-pub use uncertainty::Estimate;
+pub use uncertainty::{Deviation, Estimate};
 
 use catseye::Model;
 
@@ -50,8 +52,10 @@ pub struct FitOptions {
     pub diffuse: bool,
     /// Refractive index of a clear coat over the lobes, if there is one.
     pub coat_ior: Option<f64>,
-    /// The worst error that is accepted, as a share of the value.
+    /// The error that is accepted, as a share of the value: of the worst row.
     pub tolerance: f64,
+    /// Whether the tolerance is of the rows' root mean square instead: for measurements with noise.
+    pub of_rms: bool,
     /// Greatest channel of the material's colour over its luminance: energy is conserved in each channel.
     pub channel_peak: f64,
 }
@@ -67,6 +71,7 @@ impl Default for FitOptions {
             diffuse: false,
             coat_ior: None,
             tolerance: TOLERANCE,
+            of_rms: false,
             channel_peak: 1.0,
         }
     }
@@ -96,13 +101,17 @@ pub struct Fit {
     pub sheeting: Sheeting,
     /// The fitted numbers with their uncertainties.
     pub estimates: Vec<Estimate>,
+    /// Where those come from.
+    pub deviation: Deviation,
+    /// Values unlike the others, those farthest off first; none where every row is within the tolerance.
+    pub outliers: Vec<Outlier>,
     /// Model over value for each observation.
     pub ratios: Vec<f64>,
     /// The greatest error of a row, as a share of its value; for a bound, by how much it is broken.
     pub worst: f64,
     /// Root mean square of the rows' errors, as logarithms.
     pub rms: f64,
-    /// Whether every row is within the tolerance, of many rows (measurements) their root mean square, and the
+    /// Whether every row is within the tolerance, or the root mean square where the options say so, and the
     /// material is physical between and beyond the rows.
     pub acceptable: bool,
     /// Where between or beyond the rows the material is not what sheeting can be, if anywhere.
@@ -127,8 +136,10 @@ pub fn fit(observations: &[Observation], options: &FitOptions) -> Result<Fit, Fi
     if greatest_share(&solution.sheeting, observations) < LEAST_SHARE {
         return Err(FitError::NoLobe);
     }
-    let estimates = uncertainty::estimates(&solution, observations, options);
-    let warnings = span.warnings(options, observations.len(), solution.unknowns());
+    let (estimates, deviation) = uncertainty::estimates(&solution, observations, options);
+    let mut warnings = span.warnings(options, observations.len(), solution.unknowns());
+    warnings.extend(deviation.warning(observations.len(), solution.unknowns()));
+    let outliers = outlier::outliers(&solution, observations, options);
     // The noise of measurements is not log-convex either.
     let is_table = observations.len() <= TABLE_ROWS;
     let shape =
@@ -137,10 +148,12 @@ pub fn fit(observations: &[Observation], options: &FitOptions) -> Result<Fit, Fi
     Ok(Fit {
         form: solution.form,
         estimates,
+        deviation,
+        outliers,
         ratios: solution.log_ratios.iter().map(|log| log.exp()).collect(),
         worst: solution.worst,
         rms: solution.rms,
-        acceptable: fault.is_none() && is_acceptable(&solution, observations.len(), options.tolerance),
+        acceptable: fault.is_none() && is_acceptable(&solution, options),
         fault,
         shape: shape.filter(|bound| bound.error > options.tolerance),
         trials,
@@ -164,9 +177,9 @@ fn greatest_share(sheeting: &Sheeting, observations: &[Observation]) -> f64 {
     retro.flat_map(|row| &row.views).map(share).fold(0.0, f64::max)
 }
 
-fn is_acceptable(solution: &Solution, rows: usize, tolerance: f64) -> bool {
-    let error = if rows > TABLE_ROWS { solution.rms } else { solution.worst };
-    error <= tolerance
+fn is_acceptable(solution: &Solution, options: &FitOptions) -> bool {
+    let error = if options.of_rms { solution.rms } else { solution.worst };
+    error <= options.tolerance
 }
 
 impl Fit {

@@ -32,6 +32,8 @@ pub struct View {
 pub struct Observation {
     /// The value in the SI unit of its quantity, above 0.
     pub value: f64,
+    /// One standard deviation of it as a share of it; 0 where the value is given, not measured.
+    pub uncertainty: Option<f64>,
     /// Whether the value is met or only bounded.
     pub aim: Aim,
     /// The directions.
@@ -54,7 +56,9 @@ impl Observation {
             return Err(RowError::Integral { quantity });
         };
         let value = row.value.ok_or(RowError::NoValue)?;
-        Ok(Self { value, aim, views: vec![View { wo: geometry.wo, wi: geometry.wi, factor }] })
+        let uncertainty = row.uncertainty.map(|uncertainty| uncertainty / value);
+        let views = vec![View { wo: geometry.wo, wi: geometry.wi, factor }];
+        Ok(Self { value, uncertainty, aim, views })
     }
 }
 
@@ -102,6 +106,19 @@ impl Observation {
     pub fn is_retro(&self) -> bool {
         self.centre().observation() <= RETRO_REACH
     }
+}
+
+/// How much the values count in a sum of squares: as the inverse of their uncertainty, the least uncertain one
+/// and what is given as 1. All alike where some have none. Beside it, whether all have one.
+pub(crate) fn weights(observations: &[Observation]) -> (Vec<f64>, bool) {
+    let measured = || observations.iter().filter(|row| row.uncertainty != Some(0.0));
+    let is_stated = measured().all(|row| row.uncertainty.is_some()) && measured().next().is_some();
+    if !is_stated {
+        return (vec![1.0; observations.len()], false);
+    }
+    let least = measured().filter_map(|row| row.uncertainty).fold(f64::INFINITY, f64::min);
+    let weight = |row: &Observation| row.uncertainty.filter(|share| *share > 0.0).map_or(1.0, |s| least / s);
+    (observations.iter().map(weight).collect(), true)
 }
 
 /// Why a row can't be fitted.

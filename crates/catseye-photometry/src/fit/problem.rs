@@ -4,7 +4,7 @@ use levenberg_marquardt::LeastSquaresProblem;
 use nalgebra::{DMatrix, DVector, Dyn, Owned};
 
 use super::form::{Form, Meaning, Unknown};
-use super::observation::{Aim, Observation, View};
+use super::observation::{Aim, Observation, View, weights};
 use crate::entrance::{LogGradient, log_squared_tangent};
 use crate::sheeting::{RetroLobe, Sheeting, UnitLobe};
 
@@ -46,7 +46,7 @@ impl<'a> Problem<'a> {
         let unknowns = form.unknowns();
         let free = unknowns.iter().zip(start).map(|(unknown, &x)| logit(unknown.bounds, x));
         let free = DVector::from_iterator(unknowns.len(), free);
-        Self { form, observations, weights: vec![1.0; observations.len()], channel_peak, free, unknowns }
+        Self { form, observations, weights: weights(observations).0, channel_peak, free, unknowns }
     }
 
     pub(crate) fn form(&self) -> Form {

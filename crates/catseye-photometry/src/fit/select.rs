@@ -1,7 +1,7 @@
 //! Which forms are tried, and which one is chosen.
 
 use super::form::{EntranceKind, Form};
-use super::observation::{Aim, Observation, SAME_ANGLE};
+use super::observation::{Aim, Observation, SAME_ANGLE, weights};
 use super::physical::Fault;
 use super::solve::{Solution, TABLE_ROWS, polish, solve};
 use super::{FitError, FitOptions, Trial, is_acceptable};
@@ -125,11 +125,11 @@ pub(crate) fn choose(
     let rows = observations.len();
     let judged = match observations.iter().any(|row| row.aim == Aim::AtLeast) {
         true => Judged::Limits(options.tolerance),
-        false if rows <= TABLE_ROWS => Judged::Worst,
+        false if rows <= TABLE_ROWS && !weights(observations).1 => Judged::Worst,
         false => Judged::Noise,
     };
     let mut trials = Vec::new();
-    let mut found: Vec<(Solution, bool)> = Vec::new();
+    let mut found: Vec<(Solution, (bool, bool))> = Vec::new();
     for form in span.forms(options, rows) {
         let simpler = found.iter().map(|(solution, _)| solution);
         let Some(solution) = solve(form, observations, options.channel_peak, options.tolerance, simpler)
@@ -139,14 +139,14 @@ pub(crate) fn choose(
         let (unknowns, worst, rms) = (solution.unknowns(), solution.worst, solution.rms);
         let fault = span.fault(&solution);
         trials.push(Trial { form, unknowns, worst, rms, fault });
-        let is_met = fault.is_none() && is_acceptable(&solution, rows, options.tolerance);
-        found.push((solution, fault.is_none()));
+        let is_met = fault.is_none() && is_acceptable(&solution, options);
+        found.push((solution, (is_met, fault.is_none())));
         if judged == Judged::Worst && is_met {
             break;
         }
     }
-    // Of materials that are none between the rows only where there is no other.
-    let better = |a: &(Solution, bool), b: &(Solution, bool)| {
+    // What is accepted before what isn't, what is physical between the rows before what isn't.
+    let better = |a: &(Solution, (bool, bool)), b: &(Solution, (bool, bool))| {
         b.1.cmp(&a.1).then(judged.score(&a.0).total_cmp(&judged.score(&b.0)))
     };
     let (best, _) = found.into_iter().min_by(better).ok_or(FitError::NoSolution)?;
@@ -173,7 +173,7 @@ impl Judged {
         let price = solution.unknowns() as f64 * rows.ln();
         match self {
             Self::Worst => solution.worst,
-            Self::Noise => rows * 2.0 * solution.rms.max(f64::MIN_POSITIVE).ln() + price,
+            Self::Noise => rows * (solution.squares() / rows).max(f64::MIN_POSITIVE).ln() + price,
             Self::Limits(tolerance) => solution.cost(tolerance) + price,
         }
     }

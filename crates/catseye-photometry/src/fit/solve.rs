@@ -4,7 +4,7 @@ use levenberg_marquardt::LevenbergMarquardt;
 use rayon::prelude::*;
 
 use super::form::{Form, Meaning, Unknown};
-use super::observation::{Aim, Observation, RETRO_REACH, SAME_ANGLE};
+use super::observation::{Aim, Observation, RETRO_REACH, SAME_ANGLE, weights};
 use super::problem::{Problem, aim_weight, excess, log_ratios};
 use crate::sheeting::Sheeting;
 
@@ -44,8 +44,11 @@ pub(crate) struct Solution {
     pub(crate) sheeting: Sheeting,
     pub(crate) log_ratios: Vec<f64>,
     /// The rows' errors as logarithms: those of limits count more where they are broken, less where there is
-    /// some to spare.
+    /// some to spare, and those of uncertain values less.
     errors: Vec<f64>,
+    /// Whether the values are measurements, that are fitted in the sense of least squares: many, or of stated
+    /// uncertainties.
+    pub(crate) is_measured: bool,
     /// The greatest error of a row, as a share of its value.
     pub(crate) worst: f64,
     /// Root mean square of the rows' errors, as logarithms.
@@ -128,7 +131,7 @@ fn descend(
         (problem, _) = solver.minimize(problem);
         let Some(solution) = solution(problem.form(), problem.x(), observations, channel_peak) else { break };
         let worst = solution.worst;
-        let done = worst <= tolerance || observations.len() > TABLE_ROWS || has_limits;
+        let done = worst <= tolerance || solution.is_measured || has_limits;
         reweight(&mut problem.weights, observations, &solution);
         if best.as_ref().is_none_or(|best| solution.is_better_than(best, tolerance)) {
             best = Some(solution);
@@ -186,19 +189,22 @@ fn solution(
     let sheeting = form.sheeting(&unknowns, &x);
     let log_ratios = log_ratios(&sheeting, observations)?;
     let misses = observations.iter().zip(&log_ratios).map(|(row, &log)| miss(row.aim, log));
-    let errors = observations.iter().zip(&log_ratios).map(|(row, &log)| aim_weight(row.aim, log) * log);
-    let errors = errors.collect();
+    let (weights, is_stated) = weights(observations);
+    let errors = observations.iter().zip(&log_ratios).zip(weights);
+    let errors = errors.map(|((row, &log), weight)| weight * aim_weight(row.aim, log) * log).collect();
+    let is_measured = is_stated || observations.len() > TABLE_ROWS;
     let worst = misses.clone().fold(0.0, f64::max).exp_m1();
     let rms = (misses.map(|miss| miss * miss).sum::<f64>() / observations.len() as f64).sqrt();
-    worst.is_finite().then_some(Solution { form, x, sheeting, log_ratios, errors, worst, rms })
+    let solution = Solution { form, x, sheeting, log_ratios, errors, is_measured, worst, rms };
+    worst.is_finite().then_some(solution)
 }
 
 impl Solution {
     /// Of two that meet the tolerance the more probable one is better, taking the tolerance for the standard
     /// deviation: a table of few rows is met in many ways, most of them odd.
     fn is_better_than(&self, other: &Self, tolerance: f64) -> bool {
-        if self.log_ratios.len() > TABLE_ROWS {
-            self.rms < other.rms
+        if self.is_measured {
+            self.squares() < other.squares()
         } else if self.worst.max(other.worst) <= tolerance {
             self.cost(tolerance) < other.cost(tolerance)
         } else {
@@ -211,6 +217,11 @@ impl Solution {
         let rows: f64 = self.errors.iter().map(|error| (error / tolerance).powi(2)).sum();
         let numbers = self.form.unknowns().into_iter().zip(&self.x);
         rows + numbers.map(|(unknown, x)| unknown.prior_residual(*x).powi(2)).sum::<f64>()
+    }
+
+    /// Sum of the squared errors, those of uncertain values counting less.
+    pub(crate) fn squares(&self) -> f64 {
+        self.errors.iter().map(|error| error * error).sum()
     }
 
     /// The numbers that were free.

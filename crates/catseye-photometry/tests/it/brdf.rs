@@ -279,7 +279,7 @@ fn brdf_of(tape: &Sheeting) -> Brdf {
 }
 
 fn options() -> FitOptions {
-    FitOptions { isotropic: true, diffuse: true, tolerance: 0.4, ..FitOptions::default() }
+    FitOptions { isotropic: true, diffuse: true, tolerance: 0.4, of_rms: true, ..FitOptions::default() }
 }
 
 #[test]

@@ -15,7 +15,7 @@ fn values_of(sheeting: &Sheeting, angles: &[(f64, f64, f64)]) -> Vec<Observation
         let f = prepared.eval(geometry.wo, geometry.wi);
         let factor = Quantity::RetroReflectionCoefficient.of_brdf(1.0, &geometry).unwrap_or(f64::NAN);
         let view = catseye_photometry::fit::View { wo: geometry.wo, wi: geometry.wi, factor };
-        Observation { value: f * factor, aim: Aim::Equal, views: vec![view] }
+        Observation { value: f * factor, uncertainty: None, aim: Aim::Equal, views: vec![view] }
     };
     angles.iter().map(value).collect()
 }
@@ -278,7 +278,7 @@ fn data_of_constant_width_are_fitted_to_their_noise() {
         let view = catseye_photometry::fit::View { wo: geometry.wo, wi: geometry.wi, factor };
         let value = r_a * (1.0 + 0.03 * noise);
         assert!(value > 0.0, "row {i}");
-        rows.push(Observation { value, aim: Aim::Equal, views: vec![view] });
+        rows.push(Observation { value, uncertainty: None, aim: Aim::Equal, views: vec![view] });
     }
     let found = fit(&rows, &FitOptions { isotropic: true, lobes: Some(2), ..FitOptions::default() }).unwrap();
     assert!(found.rms < 0.04, "{}", found.rms);

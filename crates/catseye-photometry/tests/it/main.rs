@@ -4,6 +4,7 @@
 mod aperture;
 mod brdf;
 mod colour;
+mod coverage;
 mod drive;
 mod fit;
 mod geometry;

@@ -32,13 +32,12 @@ const BRDF_TOLERANCE: f64 = 40.0;
 /// Fit a material to coefficients of retro-reflection, of a CSV table or of a standard's class
 ///
 /// Finds a sum of retro-reflective lobes with entrance laws, and a diffuse base where a luminance factor
-/// is given, whose albedo is at most 1. The table has the columns `observation_deg`, `entrance_deg` and
-/// `value`; `unit` (cd/lx/m2), `quantity` (R_A), `rotation_deg` (0), `standard`, `class`, `colour` and
-/// `source` are optional. `catseye standards list` names the classes that come with the program. Without a
-/// wish, the simplest model whose worst value is within the tolerance is chosen. Exit code 1 if there is
-/// none; then no material is written.
+/// is given, whose albedo is at most 1. `catseye standards list` names the classes that come with the
+/// program. Without a wish, the simplest model whose worst value is within the tolerance is chosen. Exit
+/// code 1 if there is none; then no material is written. Values with a column uncertainty are fitted by
+/// least squares with that weight; values unlike the others are named.
 #[derive(Debug, clap::Args)]
-#[command(after_help = help::FIT)]
+#[command(after_help = help::fit())]
 pub(crate) struct Args {
     /// CSV file, STANDARD:CLASS:COLOUR, ALTA .dat or MERL .binary of a measured BRDF, or ASAM OpenMATERIAL
     /// .xomp
@@ -63,7 +62,10 @@ pub(crate) struct Args {
     /// the samples may be twice and every one four times as far off, in logarithms [default: 5, of a BRDF 40]
     #[arg(long, value_name = "PERCENT")]
     tolerance: Option<f64>,
-    /// Meet minima as lower limits instead of as values
+    /// The root mean square of the errors that is accepted instead, in percent: for measurements with noise
+    #[arg(long, value_name = "PERCENT", conflicts_with = "tolerance")]
+    tolerance_rms: Option<f64>,
+    /// Meet minima, the rows whose column limit says so, as lower limits instead of as values
     #[arg(long)]
     at_least: bool,
     /// Half-power angle of a single lobe in degrees, where the table can't tell it
@@ -82,7 +84,7 @@ pub(crate) struct Args {
     /// Area of the whole reflector, which coefficients of luminous intensity are of
     #[arg(long, value_name = "M2")]
     area_m2: Option<f64>,
-    /// Full angle of the instrument's source and receiver apertures in degrees
+    /// Full angle of the instrument's source and receiver apertures in degrees, where a row has none
     #[arg(long, value_name = "DEG", default_value_t = 0.0)]
     aperture_deg: f64,
     /// Whether the values of an ALTA file include the receiver's cosine [default: what its header says,
@@ -170,8 +172,9 @@ impl Args {
         let [material, page] = self.outputs()?;
         let options = self.options()?;
         let mut subject = Subject::find(&self.subject, self.only.as_deref(), self.cosine())?;
-        if !self.at_least {
-            subject.drop_minima_beside_values();
+        match self.at_least {
+            true => subject.check_for_minima()?,
+            false => subject.drop_minima_beside_values(),
         }
         let colour = self.colour.unwrap_or_else(|| subject.colour());
         if let Some(value) = self.luminance_factor {
@@ -185,7 +188,13 @@ impl Args {
             isotropic: subject.is_brdf(),
             channel_peak: colour.peak(),
             roughness: options.roughness.or(subject.roughness),
-            tolerance: 0.01 * self.tolerance.unwrap_or(if subject.is_brdf() { BRDF_TOLERANCE } else { 5.0 }),
+            tolerance: 0.01
+                * self.tolerance.or(self.tolerance_rms).unwrap_or(if subject.is_brdf() {
+                    BRDF_TOLERANCE
+                } else {
+                    5.0
+                }),
+            of_rms: self.tolerance_rms.is_some() || subject.is_brdf(),
             ..options
         };
         Ok(Job { subject, observations, apertures, parts: Vec::new(), options, colour, material, page })
@@ -278,7 +287,8 @@ impl Job {
             (self.observations, self.parts) = (found.observations, found.parts);
             return Ok((found.fit, beside));
         }
-        let found = fit(&self.observations, &self.options).map_err(|error| self.failure(error))?;
+        let mut found = fit(&self.observations, &self.options).map_err(|error| self.failure(error))?;
+        found.warnings.extend(self.subject.outliers(&found));
         let beside = if is_other { None } else { fit(&self.observations, &other).ok() };
         Ok((found, beside))
     }
@@ -293,7 +303,8 @@ impl Job {
 
     fn outcome<'a>(&'a self, fit: &'a Fit, beside: Option<&'a Fit>) -> Outcome<'a> {
         let Self { subject, observations, parts, .. } = self;
-        Outcome { subject, observations, parts, fit, beside, tolerance: self.options.tolerance }
+        let FitOptions { tolerance, of_rms, .. } = self.options;
+        Outcome { subject, observations, parts, fit, beside, tolerance, of_rms }
     }
 
     /// Where text goes: not between the lines of a file.

@@ -28,6 +28,8 @@ pub(crate) struct Outcome<'a> {
     pub(crate) beside: Option<&'a Fit>,
     /// The worst error that is accepted.
     pub(crate) tolerance: f64,
+    /// Whether that is of the root mean square.
+    pub(crate) of_rms: bool,
 }
 
 impl Outcome<'_> {
@@ -54,7 +56,7 @@ impl Outcome<'_> {
         let spare = limits.map(|(_, ratio)| ratio - 1.0).reduce(f64::max);
         let spare =
             spare.map_or(String::new(), |spare| format!(", minima exceeded by at most {}", percent(spare)));
-        if self.is_of_rms() {
+        if self.of_rms {
             return format!(
                 "rms of {rows} values {rms}, tolerance {tolerance} rms; worst {worst} off{spare}"
             );
@@ -63,14 +65,9 @@ impl Outcome<'_> {
         format!("worst of {rows} {noun} {worst} off, rms {rms}, tolerance {tolerance}{spare}")
     }
 
-    /// Whether the tolerance is of the root mean square, so that no row has one.
-    fn is_of_rms(&self) -> bool {
-        self.observations.len() > 64
-    }
-
     /// What each row may be off, where there is such a limit.
     pub(crate) fn row_tolerance(&self) -> Option<f64> {
-        (!self.is_of_rms()).then_some(self.tolerance)
+        (!self.of_rms).then_some(self.tolerance)
     }
 
     /// Whether a row is within its tolerance.
@@ -200,11 +197,11 @@ impl Outcome<'_> {
         let title = &self.subject.title;
         let _ = writeln!(text, "{title}: {}", describe(&self.fit.form));
         let _ = writeln!(text, "fitted to {}\n", self.fitted());
-        let _ = writeln!(text, "{:<28} {:>12}   one standard deviation", "number", "value");
+        let origin = self.fit.deviation.origin();
+        let _ = writeln!(text, "{:<28} {:>12}   one standard deviation, {origin}", "number", "value");
         for estimate in &self.fit.estimates {
-            let [low, high] = estimate.interval;
             let (name, value) = (estimate.meaning.name(), short(estimate.value));
-            let _ = writeln!(text, "{name:<28} {value:>12}   {} to {}", short(low), short(high));
+            let _ = writeln!(text, "{name:<28} {value:>12}   {}", interval(estimate, 4));
         }
         for (i, lobe) in self.fit.sheeting.lobes.iter().enumerate() {
             if let Ok(angle) = half_power_angle(lobe.roughness[0]) {
@@ -272,7 +269,8 @@ impl Outcome<'_> {
     pub(crate) fn json(&self) -> Value {
         let estimate = |e: &Estimate| {
             json!({
-                "name": e.meaning.name(), "value": e.value, "low": e.interval[0], "high": e.interval[1],
+                "name": e.meaning.name(), "value": e.value,
+                "low": e.interval.map(|interval| interval[0]), "high": e.interval.map(|interval| interval[1]),
                 "determined": e.determined, "at_bound": e.at_bound,
             })
         };
@@ -345,6 +343,12 @@ pub(crate) fn describe(form: &Form) -> String {
     let base = if form.diffuse { ", a diffuse base" } else { "" };
     let coat = form.coat_ior.map_or(String::new(), |ior| format!(", a clear coat of index {}", short(ior)));
     format!("{lobes}{entrance}{own}{base}{coat}")
+}
+
+/// One standard deviation below and above.
+pub(crate) fn interval(estimate: &Estimate, digits: i32) -> String {
+    let Some(ends) = estimate.interval else { return "not known".to_owned() };
+    ends.map(|end| significant(end, digits)).join(" to ")
 }
 
 /// A share in percent.

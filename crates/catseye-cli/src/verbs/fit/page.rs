@@ -4,11 +4,11 @@ use catseye_photometry::brdf::Part;
 use catseye_photometry::fit::{Estimate, Trial};
 use catseye_photometry::standards::{Catalogue, StandardClass};
 use catseye_photometry::verdict::{Check, Kind, Standing, Verdict, verdicts};
-use catseye_photometry::{Apertures, Colour, Geometry, Limit, Quantity, Unit, significant};
+use catseye_photometry::{Apertures, Colour, Geometry, Limit, Quantity, Unit};
 use maud::{DOCTYPE, Markup, PreEscaped, html};
 
 use super::figures::{self, Drawing};
-use super::outcome::{Outcome, describe, percent, short};
+use super::outcome::{Outcome, describe, interval, percent, short};
 use super::provenance;
 use crate::plot::axes::signed;
 use crate::plot::figure::{self, Figure};
@@ -138,10 +138,7 @@ fn notes(outcome: &Outcome<'_>) -> Markup {
 
 /// The numbers that the values leave open, in one sentence.
 fn open_numbers(estimates: &[Estimate]) -> Option<String> {
-    let name = |estimate: &Estimate| {
-        let [low, high] = estimate.interval.map(|x| significant(x, 2));
-        format!("{} ({low} to {high})", estimate.meaning.name())
-    };
+    let name = |estimate: &Estimate| format!("{} ({})", estimate.meaning.name(), interval(estimate, 2));
     let open: Vec<String> = estimates.iter().filter(|estimate| !estimate.determined).map(name).collect();
     (!open.is_empty()).then(|| {
         format!(
@@ -245,11 +242,11 @@ fn values(outcome: &Outcome<'_>) -> Markup {
 fn numbers(outcome: &Outcome<'_>) -> Markup {
     html! {
         table {
+            caption { "One standard deviation is " (outcome.fit.deviation.origin()) "." }
             thead { tr { th { "number" } th { "value" } th { "one standard deviation" } th.text {} } }
             @for estimate in &outcome.fit.estimates {
-                @let [low, high] = estimate.interval.map(short);
                 tr {
-                    td { (estimate.meaning.name()) } td { (short(estimate.value)) } td { (low) " to " (high) }
+                    td { (estimate.meaning.name()) } td { (short(estimate.value)) } td { (interval(estimate, 4)) }
                     td.text {
                         @match (estimate.determined, estimate.at_bound) {
                             (false, _) => "left open by the values",

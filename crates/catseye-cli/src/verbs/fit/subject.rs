@@ -4,11 +4,11 @@ use std::path::Path;
 
 use anyhow::{Context as _, anyhow, bail};
 use catseye_photometry::brdf::{Brdf, Cosine, Selection};
-use catseye_photometry::fit::{Aim, Observation};
+use catseye_photometry::fit::{Aim, Fit, Observation, Outlier};
 use catseye_photometry::openmaterial::{Assumption, OpenMaterial};
 use catseye_photometry::standards::StandardClass;
 use catseye_photometry::verdict::Kind;
-use catseye_photometry::{ApertureRule, Colour, Error, Limit, Quantity, Row, Table};
+use catseye_photometry::{ApertureRule, Colour, Error, Limit, Quantity, Row, Table, significant};
 
 use super::provenance::sha256;
 use crate::failure::Usage;
@@ -18,6 +18,9 @@ use crate::instrument::table;
 const FACTS: [&str; 4] = ["Instrument", "Illuminant", "Laboratory", "Specimen"];
 /// Samples of a measured BRDF that a fit looks at: more of them make it slower and no better.
 const BRDF_SAMPLES: usize = 400;
+
+/// Values unlike the others that are named.
+const MOST_OUTLIERS: usize = 5;
 
 /// The values of one material.
 #[derive(Clone, Debug, Default)]
@@ -74,7 +77,7 @@ impl Subject {
         Ok(Self {
             title,
             roughness: Some(assumption.roughness()?),
-            remarks: vec![assumption.sentence()],
+            remarks: [subject.remarks, vec![assumption.sentence()]].concat(),
             ..subject
         })
     }
@@ -120,7 +123,10 @@ impl Subject {
         let title = class.map(|class| class.title()).filter(|title| *title != name);
         let title = title.unwrap_or_else(|| file_name(&name));
         let facts = facts(table.header(), &rows);
-        Ok(Self { name, title, rows, facts, ..Self::default() })
+        let mut remarks = table.hints();
+        remarks.extend(wavelength(&name, &rows)?);
+        check_uncertainties(&name, &rows)?;
+        Ok(Self { name, title, rows, facts, remarks, ..Self::default() })
     }
 
     /// What the values are of; `None` of a BRDF.
@@ -160,6 +166,42 @@ impl Subject {
         each_once(self.rows.iter().map(|row| row.source.as_str()))
     }
 
+    /// Refuses `--at-least` where nothing is a minimum.
+    pub(crate) fn check_for_minima(&self) -> anyhow::Result<()> {
+        if self.rows.iter().any(|row| row.limit == Limit::Minimum) {
+            return Ok(());
+        }
+        bail!(Usage(format!(
+            "--at-least: no row of {} is a minimum; write `minimum` in a column `limit`",
+            self.name
+        )))
+    }
+
+    /// A sentence for each value that is unlike the others, those farthest off first.
+    pub(crate) fn outliers(&self, fit: &Fit) -> Vec<String> {
+        let sentence = |outlier: &Outlier| {
+            let row = self.rows.get(outlier.row)?;
+            Some(format!(
+                "{}:{}: {} {} at observation {} deg and entrance {} deg is {} times what the other \
+                 values say, off by {} times their scatter: is it a slip?",
+                self.name,
+                row.line,
+                significant(row.value_as_written()?, 4),
+                row.unit,
+                row.observation_deg,
+                row.entrance_deg,
+                significant(outlier.ratio, 3),
+                significant(outlier.times, 2),
+            ))
+        };
+        let mut named: Vec<String> = fit.outliers.iter().take(MOST_OUTLIERS).filter_map(sentence).collect();
+        let more = fit.outliers.len().saturating_sub(MOST_OUTLIERS);
+        if more > 0 && !named.is_empty() {
+            named.push(format!("{more} more values are unlike the others"));
+        }
+        named
+    }
+
     /// Leaves out the minima where there are typical values, which say what the material is.
     pub(crate) fn drop_minima_beside_values(&mut self) {
         let before = self.rows.len();
@@ -185,8 +227,12 @@ impl Subject {
                 (Limit::Maximum, _) => Aim::AtMost,
                 _ => Aim::Equal,
             };
-            let seen = Observation::from_row(row, aim, area_m2).map(|row| row.through(apertures));
-            seen.map_err(|error| anyhow!(error).context(format!("{}:{}", self.name, row.line)))
+            let place = || format!("{}:{}", self.name, row.line);
+            let seen = Observation::from_row(row, aim, area_m2).with_context(place)?;
+            match row.apertures {
+                Some(own) => Ok(seen.through(&own.rule().with_context(place)?)),
+                None => Ok(seen.through(apertures)),
+            }
         };
         let observations: anyhow::Result<Vec<_>> = self.rows.iter().map(observation).collect();
         if area_m2.is_none() && self.rows.iter().any(|row| row.quantity == Quantity::LuminousIntensity) {
@@ -204,11 +250,14 @@ impl Subject {
         self.rows.extend(row.map(|row| Row {
             observation_deg: 45.0,
             entrance_deg: 45.0,
+            entrance_2_deg: 0.0,
             rotation_deg: 0.0,
+            apertures: None,
             quantity: Quantity::LuminanceFactor,
             unit: Quantity::LuminanceFactor.unit(),
             value: Some(value),
-            uncertainty: None,
+            // Given, not measured.
+            uncertainty: Some(0.0),
             limit: Limit::Typical,
             source: String::new(),
             ..row
@@ -247,6 +296,34 @@ fn facts(header: &[String], rows: &[Row]) -> Vec<(&'static str, Vec<String>)> {
         (!found.is_empty()).then_some((name, found))
     };
     FACTS.iter().filter_map(|name| fact(name)).collect()
+}
+
+/// What to say of the wavelength that the values are of: a fit is of one.
+fn wavelength(name: &str, rows: &[Row]) -> anyhow::Result<Option<String>> {
+    let first = rows[0].wavelength_nm;
+    let said = |wavelength: Option<f64>| wavelength.map_or("white light".to_owned(), |nm| format!("{nm} nm"));
+    if let Some(other) = rows.iter().find(|row| row.wavelength_nm != first) {
+        bail!(
+            "{name}:{}: is of {}, the first row of {}; keep the rows of one",
+            other.line,
+            said(other.wavelength_nm),
+            said(first)
+        );
+    }
+    Ok(first.map(|nm| format!("the values are of {nm} nm: the material is what it is in that light")))
+}
+
+/// Either every value has an uncertainty, or none.
+fn check_uncertainties(name: &str, rows: &[Row]) -> anyhow::Result<()> {
+    let without = rows.iter().find(|row| row.uncertainty.is_none());
+    match without.filter(|_| rows.iter().any(|row| row.uncertainty.is_some())) {
+        Some(row) => bail!(
+            "{name}:{}: column uncertainty: is empty, other rows have one; give every row one, or delete \
+             the column",
+            row.line
+        ),
+        None => Ok(()),
+    }
 }
 
 /// Standard, class and colour of the materials among some rows, each once.
