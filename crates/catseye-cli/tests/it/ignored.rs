@@ -48,7 +48,7 @@ fn capitals_in_a_header_mean_the_same() {
     assert_eq!(column(&loud, "f_r"), column(&warned("eval", ROW).0, "f_r"));
     let geometry =
         warned("measure materials/sheeting.mtlx --geometry -", "Observation_deg,ENTRANCE_DEG\n0.2,5\n").0;
-    assert!(geometry.starts_with("Observation_deg,ENTRANCE_DEG,model\n0.2,5,"), "{geometry}");
+    assert!(geometry.starts_with("observation_deg,entrance_deg,model\n0.2,5,"), "{geometry}");
 }
 
 #[test]
