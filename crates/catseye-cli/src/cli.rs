@@ -4,8 +4,8 @@ use clap::{Command, CommandFactory as _, FromArgMatches as _, Parser, Subcommand
 
 use crate::report;
 use crate::verbs::{
-    albedo, completions, drive, eval, export, fit, furnace, lidar, man, materialx, measure, optics, plot,
-    render, roughness, sample, standards,
+    albedo, completions, drive, eval, export, fit, furnace, lidar, man, materialx, measure, merge, optics,
+    plot, render, roughness, sample, standards,
 };
 
 /// The retro-reflective BSDF: evaluate it, sample it, plot it, render with it.
@@ -28,6 +28,7 @@ pub(crate) struct Cli {
 #[derive(Debug, Subcommand)]
 enum Verb {
     Render(render::Args),
+    Merge(merge::Args),
     Furnace(furnace::Args),
     Eval(eval::Args),
     Sample(sample::Args),
@@ -59,6 +60,7 @@ impl Cli {
         }
         match self.verb {
             Verb::Render(args) => args.run(),
+            Verb::Merge(args) => args.run(),
             Verb::Furnace(args) => args.run(),
             Verb::Eval(args) => args.run(),
             Verb::Sample(args) => args.run(),

@@ -4,6 +4,8 @@ use std::fmt;
 use std::io;
 use std::process::ExitCode;
 
+use crate::interrupt::INTERRUPTED;
+
 /// The command was asked for something that it can't do, as opposed to failing at something that it can: exit
 /// code 2.
 #[derive(Debug)]
@@ -17,6 +19,18 @@ impl fmt::Display for Usage {
 
 impl std::error::Error for Usage {}
 
+/// The command was interrupted and has kept what it had: exit code 130, as where it is ended at once.
+#[derive(Debug)]
+pub(crate) struct Interrupted(pub(crate) String);
+
+impl fmt::Display for Interrupted {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "interrupted{}", self.0)
+    }
+}
+
+impl std::error::Error for Interrupted {}
+
 /// Prints the error, if there is one, and chooses the exit code: 0 done, 1 failed, 2 used wrongly.
 pub(crate) fn exit_code(result: anyhow::Result<()>) -> ExitCode {
     let Err(error) = result else { return ExitCode::SUCCESS };
@@ -24,7 +38,11 @@ pub(crate) fn exit_code(result: anyhow::Result<()>) -> ExitCode {
         return ExitCode::SUCCESS;
     }
     eprintln!("catseye: {}", line(&error));
-    if error.is::<Usage>() { ExitCode::from(2) } else { ExitCode::FAILURE }
+    match &error {
+        error if error.is::<Usage>() => ExitCode::from(2),
+        error if error.is::<Interrupted>() => ExitCode::from(INTERRUPTED),
+        _ => ExitCode::FAILURE,
+    }
 }
 
 /// The error and its causes on one line, which several would hide the place in. A cause that the error before

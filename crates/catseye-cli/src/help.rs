@@ -6,6 +6,13 @@ Example:
   $ catseye render --size 320x180 --spp 4 -o night.png
   $ catseye render materials/retro_roughness_015.mtlx -o retro.exr";
 
+/// Example of `catseye merge`.
+pub(crate) const MERGE: &str = "\
+Example:
+  $ catseye render --size 320x180 --samples 0..4 -o a.exr
+  $ catseye render --size 320x180 --samples 4..8 -o b.exr
+  $ catseye merge a.exr b.exr --expect 0..8 -o night.png";
+
 /// Example of `catseye furnace`.
 pub(crate) const FURNACE: &str = "\
 Example:

@@ -3,11 +3,16 @@
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::exit;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
 /// The exit code of a program that Ctrl-C ended.
-const INTERRUPTED: i32 = 130;
+pub(crate) const INTERRUPTED: u8 = 130;
 
+/// Whether the work looks at [`stop`] and ends by itself.
+static GENTLE: AtomicBool = AtomicBool::new(false);
+/// Whether it is to end.
+static STOP: AtomicBool = AtomicBool::new(false);
 /// The files that are to be written.
 static PENDING: Mutex<Vec<Pending>> = Mutex::new(Vec::new());
 
@@ -22,6 +27,10 @@ pub(crate) fn install() {
     // Where no handler can be set the command works as well, and leaves a temporary file where it is
     // interrupted.
     ctrlc::set_handler(|| {
+        // Who asks twice does not want to wait.
+        if GENTLE.load(Ordering::Relaxed) && !STOP.swap(true, Ordering::Relaxed) {
+            return;
+        }
         // Held until the end: nothing is written while we say what is not.
         let pending = lock();
         for file in pending.iter().filter_map(|file| file.temporary.as_ref()) {
@@ -29,9 +38,19 @@ pub(crate) fn install() {
         }
         let kept: String = pending.iter().map(|file| format!("; {}", state(&file.path))).collect();
         eprintln!("catseye: interrupted{kept}");
-        exit(INTERRUPTED);
+        exit(i32::from(INTERRUPTED));
     })
     .ok();
+}
+
+/// From now on the first interruption only says so, by [`stop`].
+pub(crate) fn stop_gently() {
+    GENTLE.store(true, Ordering::Relaxed);
+}
+
+/// Becomes true where work that asked for it by [`stop_gently`] is to end.
+pub(crate) fn stop() -> &'static AtomicBool {
+    &STOP
 }
 
 fn state(path: &Path) -> String {

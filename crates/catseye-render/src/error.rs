@@ -1,5 +1,7 @@
 //! What can go wrong, in one enum.
 
+use std::ops::Range;
+
 /// Why a scene could not be built, rendered or made a file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
@@ -81,19 +83,37 @@ pub enum Error {
     /// Nothing to merge.
     #[error("there are no parts to merge")]
     NoParts,
-    /// Parts that don't fit together.
-    #[error("parts {} and {}: {problem}", parts[0], parts[1])]
+    /// Parts of different pictures.
+    #[error("parts {} and {}: different {difference}", parts[0], parts[1])]
     Parts {
-        /// Their numbers, from 0; twice the same for a problem of one.
+        /// Their numbers, from 0.
         parts: [usize; 2],
-        /// What is wrong with them, a verb in front.
-        problem: String,
+        /// What differs.
+        difference: String,
+    },
+    /// Samples that two parts have.
+    #[error("parts {} and {} both have the samples {samples:?} of some pixels", parts[0], parts[1])]
+    Overlap {
+        /// Their numbers, from 0.
+        parts: [usize; 2],
+        /// Which samples.
+        samples: Range<u32>,
+    },
+    /// Samples that are not expected.
+    #[error("part {part} has the samples {samples:?}, beyond {expected:?}")]
+    Beyond {
+        /// Its number, from 0.
+        part: usize,
+        /// Its samples.
+        samples: Range<u32>,
+        /// Those that the picture is to have.
+        expected: Range<u32>,
     },
     /// Samples that no part has.
-    #[error("no part has the samples {}..{} of the pixel in column {} and row {}", samples.start, samples.end, pixel[0], pixel[1])]
+    #[error("no part has the samples {samples:?} of the pixel in column {} and row {}", pixel[0], pixel[1])]
     Gap {
         /// Which samples.
-        samples: std::ops::Range<u32>,
+        samples: Range<u32>,
         /// Column and row of the first such pixel.
         pixel: [usize; 2],
     },

@@ -197,17 +197,13 @@ impl Film {
         let Some(first) = parts.first() else { return Err(Error::NoParts) };
         for (number, part) in parts.iter().enumerate() {
             if let Some(difference) = first.key.difference(&part.key) {
-                return Err(Error::Parts {
-                    parts: [0, number],
-                    problem: format!("have different {difference}"),
-                });
+                return Err(Error::Parts { parts: [0, number], difference });
             }
             for (earlier, other) in parts[..number].iter().enumerate() {
                 let from = part.samples.start.max(other.samples.start);
                 let to = part.samples.end.min(other.samples.end);
                 if from < to && part.region.overlaps(&other.region) {
-                    let problem = format!("have both the samples {from}..{to} of some pixels");
-                    return Err(Error::Parts { parts: [earlier, number], problem });
+                    return Err(Error::Overlap { parts: [earlier, number], samples: from..to });
                 }
             }
         }
@@ -223,10 +219,8 @@ impl Film {
         let mut counts = vec![0_u32; width * height];
         for (number, part) in parts.iter().enumerate() {
             if part.samples.start < whole.samples.start || part.samples.end > whole.samples.end {
-                let (Range { start, end }, expected) = (part.samples.clone(), &whole.samples);
-                let expected = format!("{}..{}", expected.start, expected.end);
-                let problem = format!("has the samples {start}..{end}, not all of them in {expected}");
-                return Err(Error::Parts { parts: [number; 2], problem });
+                let (samples, expected) = (part.samples.clone(), whole.samples);
+                return Err(Error::Beyond { part: number, samples, expected });
             }
             for (row, sums) in part.sums.chunks(part.region.size()[0]).enumerate() {
                 let at = (part.region.start[1] + row) * width + part.region.start[0];

@@ -121,8 +121,7 @@ impl Part {
         let attribute = header.own_attributes.other.get(&text(ATTRIBUTE));
         let Some(AttributeValue::Text(lines)) = attribute else {
             return Err(damaged(
-                "it is a finished picture, without the sums that merging needs: render it with --samples or --region"
-                    .to_owned(),
+                "it is a finished picture, without the sums that parts are merged by".to_owned(),
             ));
         };
         let lines = Lines::new(&lines.to_string());

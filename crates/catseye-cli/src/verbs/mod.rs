@@ -11,6 +11,7 @@ pub(crate) mod lidar;
 pub(crate) mod man;
 pub(crate) mod materialx;
 pub(crate) mod measure;
+pub(crate) mod merge;
 pub(crate) mod optics;
 pub(crate) mod plot;
 pub(crate) mod render;

@@ -83,3 +83,8 @@ fn the_guide_to_export() {
 fn the_guide_to_signs_and_lidars() {
     assert_eq!(run("docs/drive.md", ROUNDING), ["drive.png", "lamp.ies", "materials"]);
 }
+
+#[test]
+fn the_guide_to_long_renders() {
+    assert_eq!(run("docs/farm.md", ROUNDING), ["a.exr", "b.exr", "c.exr", "materials", "night.png"]);
+}

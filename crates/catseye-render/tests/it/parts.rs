@@ -70,22 +70,19 @@ fn what_does_not_fit_is_refused_and_named() {
     assert_eq!(problem(&gap, None), "no part has the samples 1..2 of the pixel in column 20 and row 0");
     assert_eq!(problem(&gap[..1], None), "no part has the samples 0..2 of the pixel in column 20 and row 0");
     assert_eq!(
-        problem(&[whole.clone()], Some(0..2)),
+        problem(std::slice::from_ref(&whole), Some(0..2)),
         "no part has the samples 1..2 of the pixel in column 0 and row 0"
     );
     let overlap = [whole.clone(), of(None, [1, 2]), of(left, [1, 2])];
-    assert_eq!(problem(&overlap, None), "parts 1 and 2: have both the samples 1..2 of some pixels");
-    assert_eq!(
-        problem(&overlap[..2], Some(0..1)),
-        "parts 1 and 1: has the samples 1..2, not all of them in 0..1"
-    );
+    assert_eq!(problem(&overlap, None), "parts 1 and 2 both have the samples 1..2 of some pixels");
+    assert_eq!(problem(&overlap[..2], Some(0..1)), "part 1 has the samples 1..2, beyond 0..1");
 
     let other = RenderSettings { seed: 1, ..settings.clone() };
     let other = film(&scene, &other, None, [1, 2]);
-    assert_eq!(problem(&[whole.clone(), other], None), "parts 0 and 1: have different seeds: 0 and 1");
+    assert_eq!(problem(&[whole.clone(), other], None), "parts 0 and 1: different seeds: 0 and 1");
     let lighting = Lighting { model: Model::Edwards, lamp_deg: None };
     let edwards = film(&Scene::builtin(None, lighting).unwrap(), &settings, None, [1, 2]);
-    let message = "parts 0 and 1: have different scenes, materials, lamps or exposures";
+    let message = "parts 0 and 1: different scenes, materials, lamps or exposures";
     assert_eq!(problem(&[whole, edwards], None), message);
     assert!(Film::new(&scene, &settings, region([0, 0], [51, 1]), 0).is_err());
     assert!(Film::new(&scene, &settings, region([7, 0], [7, 1]), 0).is_err());
