@@ -6,7 +6,7 @@ use anyhow::{Context as _, bail};
 use catseye_materialx::Material;
 use catseye_photometry::standards::{Catalogue, StandardClass};
 use catseye_photometry::verdict::{Kind, Unjudged, Verdict, verdicts};
-use catseye_photometry::{Quantity, Row, Table};
+use catseye_photometry::{Apertures, Geometry, Limit, Quantity, Row, Table};
 use catseye_render::Estimate;
 use clap::ValueEnum;
 use clap::builder::PossibleValue;
@@ -26,7 +26,7 @@ use crate::{help, report};
 ///
 /// Answers the rows of a table with the material's value in a column `model`, in the row's unit: R_A in
 /// cd/lx/m2 where neither `quantity` nor `unit` say something else. Observation and entrance angles are those
-/// of the CIE goniometer system, with `beta_2` 0. Colours count as luminance in linear Rec. 709. What the
+/// of the CIE goniometer system; where a row has apertures, the value is the mean over them. Colours count as luminance in linear Rec. 709. What the
 /// surface emits and the mirror image of the lamp in a smooth coat are not measured; a lobe of roughness 0,
 /// which returns all light in one direction, is an error.
 #[derive(Debug, clap::Args)]
@@ -72,6 +72,10 @@ pub(crate) struct Args {
     /// File to write, which appears whole or not at all; `-` is standard output
     #[arg(short, long, value_name = "FILE", default_value = "-")]
     output: PathBuf,
+    /// Write the rows as measured data that `fit` and `plot ra` read: the model's value as `value`, with
+    /// --instrument its uncertainty and apertures, and the material as source
+    #[arg(long, conflicts_with_all = ["verdict", "json"])]
+    submission: bool,
     /// Print a JSON array with one object per row or verdict
     #[arg(long)]
     json: bool,
@@ -94,7 +98,22 @@ impl Args {
 
     /// The rows with the column `model`.
     fn measure(&self, photometer: &Photometer) -> anyhow::Result<String> {
-        self.answer(["model"], |row| Ok([photometer.measure(row.quantity, &row.geometry())?]))
+        self.answer(["model"], |row| {
+            let Geometry { wo, wi } = row.geometry();
+            let Some(apertures) = row.apertures else {
+                return Ok([photometer.measure(row.quantity, &row.geometry())?]);
+            };
+            let mut failure = None;
+            let at = |wo, wi| {
+                let value = photometer.measure(row.quantity, &Geometry { wo, wi });
+                value.unwrap_or_else(|error| {
+                    failure = Some(error);
+                    f64::NAN
+                })
+            };
+            let mean = apertures.rule()?.mean(wo, wi, at);
+            failure.map_or(Ok([mean]), Err)
+        })
     }
 
     /// The rows with the columns `model` and `standard_error`.
@@ -103,6 +122,9 @@ impl Args {
             (self.subject.model(), self.channel, self.area_m2, self.samples);
         let instrument = Retroreflectometer { material, model, channel, area, samples };
         self.answer(["model", "standard_error"], |row| {
+            if row.apertures.is_some_and(|apertures| !is_of_instrument(apertures)) {
+                bail!("the instrument's apertures are 0.1 degrees; others are measured without --instrument");
+            }
             let Estimate { value, standard_error } = instrument.measure(row.quantity, &row.geometry())?;
             Ok([value, standard_error])
         })
@@ -127,11 +149,43 @@ impl Args {
             let rows = rows.map(|(row, answer)| object(&table, row, names.iter().copied().zip(*answer)));
             return report::json(&rows.collect());
         }
+        if table.rows().iter().any(|row| row.wavelength_nm.is_some()) {
+            report::warn(format!(
+                "{}: wavelength_nm is not looked at: a material has three channels of visible light",
+                table.name()
+            ));
+        }
+        if self.submission {
+            return Ok(self.submitted(&table, &answers));
+        }
         // As in every table of the command: the digits that give the same value back.
         let column = |i: usize| answers.iter().map(|answer| format!("{:?}", answer[i])).collect();
         let columns: Vec<(&str, Vec<String>)> =
             names.iter().enumerate().map(|(i, name)| (*name, column(i))).collect();
         Ok(table.to_csv(&columns))
+    }
+
+    /// The rows as measured data.
+    fn submitted<const N: usize>(&self, table: &Table, answers: &[[f64; N]]) -> String {
+        let each = |text: &str| vec![text.to_owned(); answers.len()];
+        let column = |i: usize| answers.iter().map(|answer| format!("{:?}", answer[i])).collect();
+        let of_rows = |text: fn(&Row) -> &'static str| {
+            table.rows().iter().map(|row| text(row).to_owned()).collect::<Vec<_>>()
+        };
+        let mut columns = vec![
+            ("quantity", of_rows(|row| row.quantity.symbol())),
+            ("value", column(0)),
+            ("unit", of_rows(|row| row.unit.symbol())),
+        ];
+        if N > 1 {
+            columns.push(("uncertainty", column(1)));
+            let degrees = Apertures::ASTM_E810.source.to_degrees().to_string();
+            columns.push(("source_aperture_deg", each(&degrees)));
+            columns.push(("receiver_aperture_deg", each(&degrees)));
+        }
+        columns.push(("limit", each(Limit::Typical.name())));
+        columns.push(("source", each(&format!("measured from {} by catseye", self.subject.name()))));
+        table.to_csv(&columns)
     }
 
     fn table(&self) -> anyhow::Result<Table> {
@@ -238,15 +292,20 @@ fn of_colour(mut classes: Vec<StandardClass>, colour: &str) -> anyhow::Result<Ve
 /// A row as JSON: its cells by their column, numbers where the column is one of numbers, and what was
 /// measured.
 fn object<'a>(table: &Table, row: &Row, answer: impl Iterator<Item = (&'a str, f64)>) -> Value {
-    const NUMBERS: [&str; 4] = ["observation_deg", "entrance_deg", "rotation_deg", "value"];
+    let is_number = |name: &str| ["_deg", "_nm"].iter().any(|unit| name.ends_with(unit)) || name == "value";
     let mut object = Map::new();
     for (name, cell) in table.header().iter().zip(&row.cells) {
-        let number =
-            cell.parse::<f64>().ok().filter(|_| NUMBERS.iter().any(|other| name.eq_ignore_ascii_case(other)));
+        let number = cell.parse::<f64>().ok().filter(|_| is_number(name));
         object.insert(name.clone(), number.map_or_else(|| json!(cell), |number| json!(number)));
     }
     object.extend(answer.map(|(name, value)| (name.to_owned(), json!(value))));
     Value::Object(object)
+}
+
+/// Whether apertures are those of the traced instrument.
+fn is_of_instrument(apertures: Apertures) -> bool {
+    let Apertures { source, receiver } = Apertures::ASTM_E810;
+    (apertures.source / source - 1.0).abs() < 1e-6 && (apertures.receiver / receiver - 1.0).abs() < 1e-6
 }
 
 fn verdict_object(verdict: &Verdict<'_>) -> Value {

@@ -270,3 +270,35 @@ fn bad_tables_and_names_are_told_with_place_and_way_out() {
         assert_eq!(outcome.stderr.lines().count(), 1, "{}", outcome.stderr);
     }
 }
+
+/// What is measured goes out as measured data, and comes back to the lobe that it was measured on.
+#[test]
+fn measured_data_are_written_as_they_are_read() {
+    let bench = bench();
+    let table = "obs;ent;beta_2\n0,1;-4;0\n0,2;-4;10\n0,4;-4;0\n0,2;30;0\n0,4;30;0\n0,5;20;0\n0,3;0;0\n";
+    let written = bench.catseye("measure m.mtlx --geometry - --instrument --submission -o data.csv", table);
+    assert_eq!((written.code, written.stderr.as_str()), (0, ""));
+    let text = std::fs::read_to_string(bench.path("data.csv")).unwrap();
+    let header = "observation_deg,entrance_deg,beta_2_deg,quantity,value,unit,uncertainty,\
+                  source_aperture_deg,receiver_aperture_deg,limit,source";
+    assert_eq!(text.lines().next(), Some(header));
+    let again = bench.catseye("measure m.mtlx --geometry data.csv", "");
+    assert_eq!((again.code, again.stderr.as_str()), (0, ""));
+    let (value, model) = (column(&again.stdout, "value"), column(&again.stdout, "model"));
+    let sigma = column(&again.stdout, "uncertainty");
+    for ((value, model), sigma) in value.iter().zip(&model).zip(sigma) {
+        // Four standard errors of the traced light, and what the specimen's size makes of 15 m.
+        assert!((value - model).abs() < 4.0 * sigma + 0.01 * value, "{value} {model}");
+    }
+    let fit = bench.catseye("fit data.csv --lobes 1 --entrance none --tolerance 20 --json", "");
+    let told: serde_json::Value = serde_json::from_str(&fit.stdout).unwrap();
+    let roughness = told["numbers"][1]["value"].as_f64().unwrap();
+    // The node's own lobe narrows where the fitted one keeps its width.
+    assert!((roughness / 0.006 - 1.0).abs() < 0.1, "{told}");
+    let plot = bench.catseye("plot ra m.mtlx --standard data.csv -o ra.svg", "");
+    assert!(
+        plot.code == 0 && plot.stderr.contains("1 values with a beta_2 or rotation angle"),
+        "{}",
+        plot.stderr
+    );
+}

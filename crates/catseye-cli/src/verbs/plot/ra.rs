@@ -9,7 +9,6 @@ use catseye_photometry::{Geometry, Quantity, Row};
 use clap::ArgGroup;
 
 use crate::failure::Usage;
-use crate::help;
 use crate::instrument::Channel;
 use crate::instrument::goniometer::Photometer;
 use crate::instrument::table;
@@ -18,6 +17,7 @@ use crate::plot::axes::roughness_label;
 use crate::plot::curves::without_width;
 use crate::plot::figure::FigureArgs;
 use crate::plot::ra::{self, MOST_CURVES, Over, Point, Request};
+use crate::{help, report};
 
 /// Entrance angles where neither the command nor a table names any.
 const ENTRANCES_DEG: [f64; 3] = [-4.0, 30.0, 45.0];
@@ -143,7 +143,15 @@ impl Args {
 
 /// The values as `R_A`.
 fn points(class: &StandardClass) -> anyhow::Result<Vec<Point>> {
-    let points: Vec<Point> = class.rows().iter().filter_map(point).collect();
+    let is_turned = |row: &&Row| row.entrance_2_deg != 0.0 || row.rotation_deg != 0.0;
+    let turned = class.rows().iter().filter(is_turned).count();
+    if turned > 0 {
+        report::warn(format!(
+            "{}: {turned} values with a beta_2 or rotation angle are left out: the curves are those of 0",
+            class.id()
+        ));
+    }
+    let points: Vec<Point> = class.rows().iter().filter(|row| !is_turned(row)).filter_map(point).collect();
     if points.is_empty() {
         bail!("{}: has no values that are R_A or follow from it without an area or an integral", class.id());
     }
@@ -153,11 +161,13 @@ fn points(class: &StandardClass) -> anyhow::Result<Vec<Point>> {
 fn point(row: &Row) -> Option<Point> {
     let geometry = row.geometry();
     let f = row.quantity.to_brdf(row.value?, &geometry)?;
+    let uncertainty = row.uncertainty.and_then(|value| row.quantity.to_brdf(value, &geometry));
+    let r_a = |f| Quantity::RetroReflectionCoefficient.of_brdf(f, &geometry);
     Some(Point {
         observation_deg: row.observation_deg,
         entrance_deg: row.entrance_deg,
-        r_a: Quantity::RetroReflectionCoefficient.of_brdf(f, &geometry)?,
-        uncertainty: None,
+        r_a: r_a(f)?,
+        uncertainty: uncertainty.and_then(r_a),
         limit: row.limit,
     })
 }
