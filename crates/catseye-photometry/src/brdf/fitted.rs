@@ -31,7 +31,8 @@ pub struct BrdfFit {
     /// within the tolerance ([`Metrics::is_within`]). Worst error and root mean square are those of all
     /// samples there.
     pub fit: Fit,
-    /// The samples around the incident direction that the lobes were fitted to, less what a coat reflects.
+    /// What lobes and base were fitted to: samples around the incident direction and away from both peaks,
+    /// less what a coat reflects.
     pub observations: Vec<Observation>,
     /// The parts, those without samples left out.
     pub parts: Vec<Part>,

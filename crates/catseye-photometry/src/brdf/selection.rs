@@ -75,7 +75,11 @@ impl Region {
 
 impl Selection {
     /// All samples of a region, in the order of the file.
-    pub fn samples<'a>(&self, brdf: &'a Brdf, region: Region) -> impl Iterator<Item = &'a BrdfSample> {
+    pub fn samples<'a>(
+        &self,
+        brdf: &'a Brdf,
+        region: Region,
+    ) -> impl Iterator<Item = &'a BrdfSample> + use<'a> {
         let peak = brdf.samples.iter().map(BrdfSample::luminance).fold(0.0, f64::max);
         let (cosine, floor, reach) = (self.zenith.cos(), self.floor * peak, self.observation);
         brdf.samples.iter().filter(move |sample| {
