@@ -17,6 +17,7 @@ pub(crate) fn run() -> Result<()> {
         "plot spheres -o docs/back_vector.png",
         "drive materials/sheeting.mtlx materials/sheeting_astm_type_i_white.mtlx astm-d4956:iii:white --required 2.4 \
          --plot docs/drive.png",
+        "plot optics -o docs/optics.png",
     ] {
         run_cargo(&format!("run --release --quiet --package catseye-cli -- {arguments}"))?;
     }

@@ -165,6 +165,12 @@ pub(crate) const PLOT_SPHERES: &str = "\
 Example:
   $ catseye plot spheres --roughness 0.15 -o spheres.png";
 
+/// Example of `catseye plot optics`.
+pub(crate) const PLOT_OPTICS: &str = "\
+Example:
+  $ catseye plot optics -o optics.svg
+  wrote optics.svg (1140 x 560)";
+
 /// The format of tables of values, and examples of `catseye fit`.
 pub(crate) fn fit() -> String {
     format!("{VALUES}\n\n{FIT}")

@@ -9,6 +9,7 @@ pub(crate) mod drive;
 pub(crate) mod figure;
 pub(crate) mod furnace;
 pub(crate) mod lobe;
+pub(crate) mod optics;
 mod polar;
 pub(crate) mod ra;
 pub(crate) mod residuals;

@@ -61,6 +61,11 @@ fn the_guide_to_the_command() {
     run("docs/command.md", ROUNDING);
 }
 
+#[test]
+fn the_notes_on_optics() {
+    run("docs/optics.md", ROUNDING);
+}
+
 /// From the data sheet to the rendered sign: the steps build on each other.
 #[test]
 fn the_guide_to_photometry() {

@@ -77,7 +77,7 @@ impl Cubes {
     /// A number out of its range.
     pub fn prepare(&self) -> Result<PreparedCubes, Error> {
         self.check()?;
-        Ok(PreparedCubes { cubes: *self, sample: self.sample(), light: self.light.nodes(COLOURS) })
+        Ok(PreparedCubes { cubes: *self, sample: self.sample(SAMPLE), light: self.light.nodes(COLOURS) })
     }
 
     fn check(&self) -> Result<(), Error> {
@@ -98,13 +98,13 @@ impl Cubes {
         self.light.check()
     }
 
-    /// Cubes with equal shares: all azimuths where none is given, and errors of a normal distribution, from a
+    /// Cubes with equal shares, `most` of them or one: all azimuths where none is given, and errors of a normal distribution, from a
     /// sequence that fills their space evenly (Roberts' generalised golden ratio in four dimensions).
-    fn sample(&self) -> Vec<Cube> {
+    fn sample(&self, most: u32) -> Vec<Cube> {
         /// The root of x^5 = x + 1.
         const RATIO: f64 = 1.167_303_978_261_418_7;
         let is_random = self.error_sd_arcmin > 0.0;
-        let count = if is_random || self.azimuth_deg.is_none() { SAMPLE } else { 1 };
+        let count = if is_random || self.azimuth_deg.is_none() { most } else { 1 };
         let arcmin = PI / 10800.0;
         let mut sample = Vec::new();
         for i in 0..count {
@@ -578,6 +578,55 @@ mod tests {
         // Not exactly: the receiver's polarisations are those of the source's plane.
         assert!((value([6.0; 3]) / value([-6.0; 3]) - 1.0).abs() < 1e-5);
         assert!((value([6.0, 0.0, 0.0]) / value([6.0; 3]) - 1.0).abs() > 0.1);
+    }
+
+    #[test]
+    fn a_trace_with_waves_agrees() {
+        // numpy, by another way: 490,000 rays through a cube that is built with its errors, each with its field and
+        // its optical path, summed at the receiver. What the sum's grain (0.5 %) and the errors' second order (4 %
+        // at 10 minutes) are worth.
+        let cubes = Cubes { coating: Coating::Air, ..MIRRORED };
+        let tilted = Cubes {
+            index: 1.586,
+            leg_um: 100.0,
+            errors_arcmin: [6.0, -4.0, 9.0],
+            light: Light::Monochromatic(600.0),
+            ..cubes
+        };
+        let mirrored = Cubes { errors_arcmin: [6.0, -3.0, 2.0], ..MIRRORED };
+        for (cubes, [observation, turn, entrance, azimuth], traced, bound) in [
+            (cubes, [0.2, 0.0, 0.0, 0.0], 2143.793, 0.006),
+            (cubes, [0.5, 20.0, 0.0, 0.0], 408.907, 0.006),
+            (cubes, [0.3, 10.0, 5.0, 0.0], 2472.576, 0.006),
+            (cubes, [0.3, 10.0, 30.0, 0.0], 88.236, 0.006),
+            (cubes, [0.3, 10.0, 30.0, 47.0], 2714.855, 0.006),
+            (cubes, [1.0, 70.0, 20.0, 13.0], 21.732, 0.006),
+            (tilted, [0.0, 0.0, 0.0, 0.0], 1620.930, 0.04),
+            (tilted, [0.2, 0.0, 0.0, 0.0], 825.801, 0.04),
+            (tilted, [0.3, 10.0, 30.0, 47.0], 257.527, 0.04),
+            (tilted, [1.0, 70.0, 20.0, 13.0], 122.445, 0.04),
+            (mirrored, [0.3, 10.0, 40.0, 25.0], 975.184, 0.01),
+        ] {
+            let found = cubes.prepare().unwrap().r_a(&geometry(observation, turn, entrance, azimuth));
+            assert!(
+                (found / traced - 1.0).abs() < bound,
+                "{observation} {turn} {entrance}: {found} {traced}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_few_hundred_cubes_stand_for_the_sheet() {
+        // 5.1 % at 2 degrees is the most that was seen. As many cubes by chance have standard errors of 5 to 9 %
+        // (numpy), in light of one wavelength.
+        let cubes = Cubes { light: Light::Monochromatic(550.0), ..Cubes::default() };
+        let prepared = cubes.prepare().unwrap();
+        let many = PreparedCubes { sample: cubes.sample(10 * SAMPLE), ..prepared.clone() };
+        for observation in [0.1, 0.2, 0.5, 1.0, 2.0] {
+            let geometry = geometry(observation, 0.0, 20.0, 0.0);
+            let ratio = prepared.r_a(&geometry) / many.r_a(&geometry);
+            assert!((ratio - 1.0).abs() < 0.06, "{observation}: {ratio}");
+        }
     }
 
     #[test]

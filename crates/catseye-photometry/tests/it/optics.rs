@@ -182,7 +182,8 @@ fn numbers_out_of_range_are_named() {
         (Beads { mount: in_medium(1.5, 1.5, 2.0), ..beads }, "the film's transmittance is 2, outside (0, 1]"),
         (
             Beads { mount: in_medium(1.5, 1.5, 1.0), back: Back::Diffuse(0.8), ..beads },
-            "the spacing of a diffuse reflector is 1.5, outside what is modelled: a diffuse reflector lies on beads in air",
+            "the spacing of a diffuse reflector is 1.5, outside what is modelled: a diffuse reflector lies on \
+             beads in air",
         ),
     ] {
         assert_eq!(wrong.prepare().unwrap_err().to_string(), message);

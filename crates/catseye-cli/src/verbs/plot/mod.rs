@@ -12,7 +12,7 @@ use crate::help;
 use crate::options::{ModelArg, Roughness};
 use crate::output::{Output, must_end_in};
 use crate::plot::figure::{Figure as _, FigureArgs, PNG_SCALE};
-use crate::plot::{albedo, lobe, spheres};
+use crate::plot::{albedo, lobe, optics, spheres};
 
 /// Plot the lobes, their albedo, R_A or spheres, as SVG or PNG
 #[derive(Debug, clap::Args)]
@@ -27,6 +27,7 @@ enum What {
     Lobe(LobeArgs),
     Albedo(AlbedoArgs),
     Ra(Box<ra::Args>),
+    Optics(OpticsArgs),
     Spheres(SpheresArgs),
 }
 
@@ -36,6 +37,7 @@ impl Args {
             What::Lobe(args) => args.run(),
             What::Albedo(args) => args.run(),
             What::Ra(args) => args.run(),
+            What::Optics(args) => args.run(),
             What::Spheres(args) => args.run(),
         }
     }
@@ -113,6 +115,20 @@ impl AlbedoArgs {
         }
         let roughnesses: Vec<[f64; 2]> = self.roughness.iter().map(|roughness| roughness.0).collect();
         self.figure.write(&albedo::AlbedoFigure::new(self.model.0, &roughnesses)?, "albedo.svg")
+    }
+}
+
+/// R_A of glass beads and corner cubes, and of the lobes that are fitted to them
+#[derive(Debug, clap::Args)]
+#[command(after_help = help::PLOT_OPTICS)]
+struct OpticsArgs {
+    #[command(flatten)]
+    figure: FigureArgs,
+}
+
+impl OpticsArgs {
+    fn run(&self) -> anyhow::Result<()> {
+        self.figure.write(&optics::OpticsFigure::new()?, "optics.svg")
     }
 }
 
