@@ -135,6 +135,7 @@ fn wrong_wishes_are_refused_in_a_line() {
         ("csv materials/sheeting.mtlx -o m.csv --tint 905=0.3", 2, "options of the target openmaterial only"),
         ("csv materials/sheeting.mtlx -o m.csv --entrances 95", 1, "entrance_deg"),
         ("csv nothing.mtlx -o m.csv", 1, "nothing.mtlx"),
+        ("csv materials/sheeting.mtlx --luminance-factor 0.3 -o m.csv", 2, "options of tables"),
         ("csv astm-d4956:iii -o m.csv", 1, "say which one"),
     ] {
         let outcome = bench.catseye(&format!("export {args}"), "");

@@ -15,6 +15,7 @@ use catseye_photometry::{
 
 use super::parts;
 use super::{Args, Target};
+use crate::failure::Usage;
 use crate::instrument::Channel;
 use crate::instrument::goniometer::Photometer;
 use crate::instrument::table::{ENTRANCES_DEG, OBSERVATIONS_DEG, grid};
@@ -92,6 +93,11 @@ impl Original {
     }
 
     fn of_material(args: &Args, path: &Path) -> anyhow::Result<Self> {
+        if args.only.is_some() || args.luminance_factor.is_some() {
+            bail!(Usage(
+                "--only and --luminance-factor are options of tables, and this is a material".to_owned()
+            ));
+        }
         let material = args.library.material(path, args.material.as_deref())?;
         let name = args.subject.clone();
         if !parts::is_retro(&material) {
