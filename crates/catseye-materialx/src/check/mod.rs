@@ -114,7 +114,8 @@ impl Report {
 /// materials or looks.
 ///
 /// Unlike [`Document::material`](crate::Document::material) this goes on after the first problem, and looks
-/// at nodes too that no material uses; what is wrong with them alone is a warning.
+/// at nodes too that no material uses; what is wrong with them alone is a warning. A document without a
+/// material, such as a library of nodes, is told so by a warning; what is wrong with its nodes are errors.
 #[must_use]
 pub fn check(path: impl AsRef<Path>, library: &Library) -> Report {
     let path = path.as_ref();
@@ -147,11 +148,13 @@ fn check_elements(root: &Element, own_file: &Arc<str>, mut errors: Vec<Error>, l
     more += walk.more;
     let mut notes = warnings(root);
     notes.extend(walk.warnings);
-    refused(&graph, library, &programs, own_file, &mut errors, &mut notes);
+    refused(&graph, library, &programs, &mut errors, &mut notes);
     errors.extend(looks(root).err());
     // A cycle is the same one wherever it is entered.
     let is_cycle = |error: &Error| matches!(error, Error::Cycle { .. });
-    let refuses = !errors.is_empty();
+    // A document without a material is a library of nodes: it is judged by them.
+    let no_material = graph.materials().next().is_none();
+    let refuses = !errors.is_empty() || no_material;
     if walk.problems.iter().any(is_cycle) {
         errors.retain(|error| !is_cycle(error));
     }
@@ -159,6 +162,10 @@ fn check_elements(root: &Element, own_file: &Arc<str>, mut errors: Vec<Error>, l
     let errors = errors.iter().map(|error| Finding::of_error(Severity::Error, error, own_file));
     let suspects = walk.problems.iter().map(|error| Finding::of_error(severity, error, own_file));
     let mut findings: Vec<Finding> = errors.chain(suspects).collect();
+    if no_material {
+        let missing = Error::NoMaterial { file: Arc::clone(own_file) };
+        findings.push(Finding::of_error(Severity::Warning, &missing, own_file));
+    }
     findings.extend(notes.into_iter().map(Finding::of_warning));
     findings.sort_by_cached_key(|finding| finding.order(own_file));
     findings.dedup();
@@ -180,16 +187,12 @@ fn refused<'a>(
     graph: &'a Graph<'a>,
     library: &'a Library,
     programs: &'a [Assembler],
-    own_file: &Arc<str>,
     errors: &mut Vec<Error>,
     notes: &mut Vec<Warning>,
 ) {
     // Then no material is read at all.
     let refuses_all = !errors.is_empty();
     let materials: Vec<NodeRef<'a>> = graph.materials().collect();
-    if materials.is_empty() {
-        errors.push(Error::NoMaterial { file: Arc::clone(own_file) });
-    }
     if refuses_all {
         return;
     }
