@@ -70,6 +70,7 @@ const MEASURE: &str = "\
 Example:
   $ catseye measure materials/sheeting.mtlx --standard fmvss108:dot-c2:white
   $ catseye measure materials/sheeting.mtlx --verdict
+  $ catseye measure materials/sheeting.mtlx --verdict --standard fmvss108:dot-c3:white --guard 3%
   $ catseye measure materials/sheeting.mtlx --standard fmvss108:dot-c2:white --instrument";
 
 const VALUES: &str = "\

@@ -198,17 +198,19 @@ fn report(table: &str, options: &str) -> String {
 
 #[test]
 fn the_report_says_what_a_client_asks() {
-    let measured = "observation_deg,entrance_deg,value,unit,uncertainty,instrument,illuminant,source\n\
-                    0.2,5,250,cd/lx/m2,3%,Gonio 7,A,lab\n0.5,5,95,cd/lx/m2,3%,Gonio 7,A,lab\n\
-                    0.2,30,150,cd/lx/m2,3%,Gonio 7,A,lab\n0.5,30,60,cd/lx/m2,3%,Gonio 7,A,lab\n";
-    let page = report(measured, "--colour yellow --name 'Lot 4' -o s.mtlx");
+    let header = "observation_deg,entrance_deg,value,unit,uncertainty,instrument,illuminant,source,\
+                  source_aperture_deg,receiver_aperture_deg";
+    let rows = ["0.2,5,250", "0.5,5,95", "0.2,30,150", "0.5,30,60"];
+    let rows = rows.map(|row| format!("{row},cd/lx/m2,3%,Gonio 7,A,lab,0.1,0.05\n")).concat();
+    let measured = format!("{header}\n{rows}");
+    let page = report(&measured, "--colour yellow --name 'Lot 4' -o s.mtlx");
     assert_eq!(
         page.matches("<svg").count(),
         3,
         "over the observation and the entrance angle, and what is left"
     );
     let bench = Bench::new();
-    bench.write("table.csv", measured);
+    bench.write("table.csv", &measured);
     let digest = bench.shell("sha256sum table.csv | cut -d' ' -f1").stdout;
     for part in [
         "<h1>Lot 4</h1>",
@@ -220,6 +222,7 @@ fn the_report_says_what_a_client_asks() {
         "Gonio 7",
         "<td>A</td>",
         "<td>lab</td>",
+        "source 0.1\u{b0}, receiver 0.05\u{b0}",
         "<td>s.mtlx</td>",
         "4 values of R_A, observation 0.2 to 0.5 deg, entrance 5 to 30 deg",
         "Bars: one standard deviation of the value",

@@ -46,7 +46,8 @@ pub(crate) struct Args {
     /// Write the material to this .mtlx file; `-` is standard output
     #[arg(short, long, value_name = "FILE")]
     output: Option<PathBuf>,
-    /// Write a report to this .html file, whatever comes out
+    /// Write a report to this .html file, whatever comes out; its date is that of `SOURCE_DATE_EPOCH`, where
+    /// that is set, or now
     #[arg(long, value_name = "FILE")]
     report: Option<PathBuf>,
     /// Fit only the rows whose standard, class and colour contain this text
@@ -94,7 +95,7 @@ pub(crate) struct Args {
     /// Lobe model
     #[arg(long, value_enum, default_value_t)]
     model: FitModel,
-    /// Name of the material [default: the file's]
+    /// Name of the material, and title of the report [default: the file's; what the rows say]
     #[arg(long, value_name = "NAME")]
     name: Option<String>,
     /// Print the result as JSON
@@ -148,7 +149,7 @@ impl Args {
             let is_written = found.acceptable && outcome.fault().is_none();
             let context = Context {
                 title: self.name.as_ref().unwrap_or(&job.subject.title),
-                apertures: job.apertures,
+                apertures: job.subject.apertures().unwrap_or(job.apertures),
                 colour: job.colour,
                 area_m2: self.area_m2,
                 material: job.material.as_ref().filter(|_| is_written).map(Output::name),

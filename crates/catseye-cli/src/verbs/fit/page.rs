@@ -101,9 +101,12 @@ fn verdict(outcome: &Outcome<'_>) -> Markup {
 /// Where the result comes from.
 fn facts(outcome: &Outcome<'_>, context: &Context<'_>) -> anyhow::Result<Markup> {
     let subject = outcome.subject;
-    let apertures = match context.apertures.source.to_degrees() {
-        0.0 => "points (no aperture was given)".to_owned(),
-        diameter => format!("{}\u{b0}, source and receiver", short(diameter)),
+    let Apertures { source, receiver } = context.apertures;
+    let apertures = if source.max(receiver) > 0.0 {
+        let [source, receiver] = [source, receiver].map(|angle| short(angle.to_degrees()));
+        format!("source {source}\u{b0}, receiver {receiver}\u{b0}")
+    } else {
+        "points (no aperture was given)".to_owned()
     };
     Ok(html! {
         table.facts {

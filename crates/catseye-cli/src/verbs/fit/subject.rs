@@ -8,7 +8,7 @@ use catseye_photometry::fit::{Aim, Fit, Observation, Outlier};
 use catseye_photometry::openmaterial::{Assumption, OpenMaterial};
 use catseye_photometry::standards::StandardClass;
 use catseye_photometry::verdict::Kind;
-use catseye_photometry::{ApertureRule, Colour, Error, Limit, Quantity, Row, Table, significant};
+use catseye_photometry::{ApertureRule, Apertures, Colour, Error, Limit, Quantity, Row, Table, significant};
 
 use super::provenance::sha256;
 use crate::failure::Usage;
@@ -154,6 +154,13 @@ impl Subject {
     /// The measured BRDF, where it is one.
     pub(crate) fn brdf(&self) -> Option<&Brdf> {
         self.brdf.as_ref()
+    }
+
+    /// The instrument's apertures, where all rows name the same.
+    pub(crate) fn apertures(&self) -> Option<Apertures> {
+        let first = self.rows.first()?.apertures?;
+        let retro = self.rows.iter().filter(|row| row.quantity != Quantity::LuminanceFactor);
+        retro.map(|row| row.apertures).all(|own| own == Some(first)).then_some(first)
     }
 
     /// Whether the values are those of a measured BRDF.
