@@ -38,6 +38,7 @@ mod hints;
 mod integral;
 pub mod lamp;
 mod lines;
+mod lobe;
 mod mtlx;
 mod number;
 pub mod openmaterial;

@@ -3,14 +3,13 @@
 use std::f64::consts::PI;
 use std::sync::LazyLock;
 
-use catseye::{AnyLobe, BackVector, Edwards, Lobe as _, Model, ParamError, Params, Vec3};
+use catseye::{BackVector, Lobe as _, Model, ParamError, Vec3};
 
-use crate::entrance::{EntranceLaw, LEAST_COSINE, log_squared_tangent};
+use crate::entrance::{EntranceLaw, LEAST_COSINE, LogGradient, log_squared_tangent};
+use crate::lobe::{Pair, UnitLobe};
 
 /// Cosines over which the energy is bounded.
 const ENERGY_STEPS: usize = 96;
-/// Length of a projected direction below which it has no azimuth: there all lobes are round.
-const NO_AZIMUTH: f64 = 1e-12;
 
 /// One lobe of a sheeting.
 ///
@@ -84,19 +83,44 @@ impl Sheeting {
     /// The greatest sum of tints over the viewer's direction, at 97 cosines from 0.01 to 1.
     #[must_use]
     pub fn albedo_bound(&self) -> f64 {
-        /// 1 / c and the logarithm of the squared tangent.
-        static NODES: LazyLock<Vec<[f64; 2]>> = LazyLock::new(|| {
+        self.greatest_albedo().0
+    }
+
+    /// [`Sheeting::albedo_bound`], and where it is: the logarithm of the squared tangent.
+    pub(crate) fn greatest_albedo(&self) -> (f64, f64) {
+        static NODES: LazyLock<Vec<f64>> = LazyLock::new(|| {
             let cosine = |i| LEAST_COSINE + (1.0 - LEAST_COSINE) * i as f64 / ENERGY_STEPS as f64;
-            (0..=ENERGY_STEPS).map(cosine).map(|c| [1.0 / c, log_squared_tangent(c)]).collect()
+            (0..=ENERGY_STEPS).map(cosine).map(log_squared_tangent).collect()
         });
-        let at = |[inverse, log_tangent]: &[f64; 2]| -> f64 {
-            let tint = |lobe: &RetroLobe| {
-                let law = lobe.entrance.map_or(1.0, |law| law.log_gradient(*log_tangent).log.exp());
-                lobe.strength * law * if lobe.keeps_width(self.model) { *inverse } else { 1.0 }
-            };
-            self.lobes.iter().map(tint).sum()
+        let at = |&log_tangent: &f64| (self.tints(log_tangent).map(|tint| tint.0).sum(), log_tangent);
+        let (greatest, place) = NODES.iter().map(at).fold((0.0, 0.0), |a, b| if b.0 > a.0 { b } else { a });
+        (self.diffuse + greatest, place)
+    }
+
+    /// Whether the albedo may exceed a limit, without a look at every direction: of a law that falls as the
+    /// cosine at least, F / (N.V) is nowhere above 1 / cos b0 (docs/theory.md, section 10).
+    pub(crate) fn may_exceed(&self, limit: f64) -> bool {
+        let greatest = |lobe: &RetroLobe| match lobe.entrance {
+            Some(law) if law.slope < 1.0 => f64::INFINITY,
+            Some(law) if !law.is_power() => lobe.strength * (1.0 + law.bend).sqrt(),
+            _ => lobe.strength,
         };
-        self.diffuse + NODES.iter().map(at).fold(0.0, f64::max)
+        self.diffuse + self.lobes.iter().map(greatest).sum::<f64>() > limit
+    }
+
+    /// The lobes' tints for a direction to the viewer, by the logarithm of its squared tangent, with the
+    /// gradients of their laws.
+    pub(crate) fn tints(
+        &self,
+        log_tangent: f64,
+    ) -> impl Iterator<Item = (f64, Option<LogGradient>)> + use<'_> {
+        self.lobes.iter().map(move |lobe| {
+            let gradient = lobe.entrance.map(|law| law.log_gradient(log_tangent));
+            // 1 / (N.V)^2 is 1 more than the squared tangent.
+            let secant = (1.0 + log_tangent.exp()).sqrt();
+            let width = if lobe.keeps_width(self.model) { secant } else { 1.0 };
+            (lobe.strength * gradient.map_or(1.0, |gradient| gradient.log.exp()) * width, gradient)
+        })
     }
 }
 
@@ -113,9 +137,10 @@ impl PreparedSheeting<'_> {
     #[must_use]
     pub fn eval(&self, wo: Vec3<f64>, wi: Vec3<f64>) -> f64 {
         let Sheeting { model, diffuse, .. } = *self.sheeting;
+        let pair = Pair::new(model, wo, wi);
         let lobes = self.sheeting.lobes.iter().zip(&self.lobes);
         let retro: f64 =
-            lobes.map(|(own, lobe)| own.strength * own.factor(model, wo.z) * lobe.eval(wo, wi)).sum();
+            lobes.map(|(own, lobe)| own.strength * own.factor(model, wo.z) * lobe.eval(&pair)).sum();
         let diffuse = if wo.z.min(wi.z) > 0.0 { diffuse / PI } else { 0.0 };
         self.sheeting.transmitted(wo) * (retro + diffuse)
     }
@@ -145,50 +170,6 @@ impl Surface {
         let facets = self.facets.eval(Vec3::new(-wo.x, -wo.y, wo.z), wi)[0];
         facets * fresnel((0.5 + 0.5 * wo.dot(wi)).max(0.0).sqrt(), self.ior)
     }
-}
-
-/// A lobe of strength 1.
-#[derive(Clone, Debug)]
-pub(crate) enum UnitLobe {
-    /// Along the datum axis, the same for all directions.
-    Fixed(Box<AnyLobe<f64>>),
-    /// Along the viewer's projection, of this roughness over N.V there and of this roughness across it.
-    KeepsWidth(Model, f64),
-}
-
-impl UnitLobe {
-    pub(crate) fn new(model: Model, lobe: &RetroLobe) -> Result<Self, ParamError> {
-        let [u, v] = lobe.roughness;
-        let fixed = AnyLobe::new(model, &Params::anisotropic(u, v))?;
-        Ok(if lobe.keeps_width(model) { Self::KeepsWidth(model, u) } else { Self::Fixed(Box::new(fixed)) })
-    }
-
-    /// The BSDF in 1/sr.
-    pub(crate) fn eval(&self, wo: Vec3<f64>, wi: Vec3<f64>) -> f64 {
-        match self {
-            Self::Fixed(lobe) => lobe.eval(wo, wi)[0],
-            &Self::KeepsWidth(model, roughness) => {
-                let [wo, wi] = along_projection(wo, wi);
-                let params = Params::anisotropic(roughness / wo.z.max(LEAST_COSINE), roughness);
-                // Edwards' lobe has nothing to prepare; the reciprocal one is it times min(1, z_i/z_o)^3
-                // (theory.md, 3).
-                let reciprocal =
-                    if model == Model::Reciprocal { (wi.z / wo.z).clamp(0.0, 1.0).powi(3) } else { 1.0 };
-                let edwards = Edwards::new(&params);
-                edwards.map_or(0.0, |lobe| reciprocal * lobe.eval(wo, wi)[0])
-            }
-        }
-    }
-}
-
-/// Both directions in the frame whose x axis is the projection of `wo`.
-pub(crate) fn along_projection(wo: Vec3<f64>, wi: Vec3<f64>) -> [Vec3<f64>; 2] {
-    let length = wo.x.hypot(wo.y);
-    if length < NO_AZIMUTH {
-        return [wo, wi];
-    }
-    let (cos, sin) = (wo.x / length, wo.y / length);
-    [wo, wi].map(|w| Vec3::new(w.x * cos + w.y * sin, w.y * cos - w.x * sin, w.z))
 }
 
 /// Reflectance of a smooth dielectric for unpolarised light that arrives from outside.

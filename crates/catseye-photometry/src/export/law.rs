@@ -5,8 +5,8 @@ use levenberg_marquardt::{LeastSquaresProblem, LevenbergMarquardt};
 use nalgebra::{Dyn, Matrix, OMatrix, OVector, Owned, U3, Vector3};
 
 use crate::entrance::{EntranceLaw, LEAST_COSINE, log_squared_tangent};
+use crate::lobe::along_projection;
 use crate::luminance;
-use crate::sheeting::along_projection;
 
 /// How far inputs may be from the formula, as a share: what single precision leaves of a node graph, with
 /// room.

@@ -3,19 +3,26 @@
 //! A model of 1 to 3 lobes with entrance laws ([`Form`]) is fitted to the logarithms of the values by
 //! Levenberg and Marquardt's method. Every number is kept within bounds, the albedo of every direction at 1
 //! or less, and a number that the data leave open near a weak prior, with a warning. Where a table's worst
-//! row is beyond the tolerance its weight grows until the worst error is as small as it gets (Lawson's
-//! algorithm). Without a wish, the form with the fewest numbers that meets the tolerance is chosen.
+//! row is beyond the tolerance the worst error itself is made least. Each form starts from many places and
+//! from what simpler forms found. Without a wish, the form with the fewest numbers that meets the tolerance
+//! is chosen.
 
 mod error;
 mod form;
+#[cfg(test)]
+mod leave_one_out;
+mod minimax;
 mod observation;
 mod outlier;
 mod physical;
 mod problem;
+mod rows;
 mod select;
 mod shape;
 mod solve;
+mod starts;
 mod uncertainty;
+mod walls;
 
 pub use error::{FitError, MAX_VALUES};
 pub use form::{EntranceKind, Form, Meaning};
@@ -132,7 +139,8 @@ pub fn fit(observations: &[Observation], options: &FitOptions) -> Result<Fit, Fi
     error::check(observations, options)?;
     let span = select::Span::of(observations);
     span.check(options)?;
-    let (solution, trials) = select::choose(observations, options, &span)?;
+    let forms = span.forms(options, observations.len());
+    let (solution, trials) = select::choose(observations, options, &span, &forms)?;
     if greatest_share(&solution.sheeting, observations) < LEAST_SHARE {
         return Err(FitError::NoLobe);
     }
@@ -162,19 +170,22 @@ pub fn fit(observations: &[Observation], options: &FitOptions) -> Result<Fit, Fi
     })
 }
 
-/// The least part of some value near the retro direction that lobes must have, and the roughness beyond which
+/// The least part of two values near the retro direction that lobes must have, and the roughness beyond which
 /// a lobe is none: its half-power angle is 45 degrees.
-const LEAST_SHARE: f64 = 0.05;
+const LEAST_SHARE: f64 = 0.2;
 const WIDEST: f64 = 1.0;
 
-/// The greatest part that lobes which are some have of the model's values near the retro direction.
+/// The greatest part that lobes which are some have of the model's values near the retro direction, but for one
+/// value where there are more: a lobe that only one of them sees is its noise.
 fn greatest_share(sheeting: &Sheeting, observations: &[Observation]) -> f64 {
     let lobes = sheeting.lobes.iter().filter(|lobe| lobe.roughness[0].min(lobe.roughness[1]) < WIDEST);
     let lobes = Sheeting { lobes: lobes.copied().collect(), diffuse: 0.0, ..sheeting.clone() };
     let (Ok(whole), Ok(lobes)) = (sheeting.prepare(), lobes.prepare()) else { return 0.0 };
     let share = |view: &View| lobes.eval(view.wo, view.wi) / whole.eval(view.wo, view.wi);
     let retro = observations.iter().filter(|row| row.is_retro());
-    retro.flat_map(|row| &row.views).map(share).fold(0.0, f64::max)
+    let mut shares: Vec<f64> = retro.map(|row| row.views.iter().map(share).fold(0.0, f64::max)).collect();
+    shares.sort_by(|a, b| b.total_cmp(a));
+    shares.get(1).or(shares.first()).copied().unwrap_or(0.0)
 }
 
 fn is_acceptable(solution: &Solution, options: &FitOptions) -> bool {

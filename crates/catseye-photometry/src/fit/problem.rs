@@ -1,52 +1,78 @@
-//! The least-squares problem: logarithms of model over value, with bounds and the conservation of energy.
+//! The least-squares problem: logarithms of model over value, with bounds, walls and priors.
+
+use std::sync::Arc;
 
 use levenberg_marquardt::LeastSquaresProblem;
 use nalgebra::{DMatrix, DVector, Dyn, Owned};
 
-use super::form::{Form, Meaning, Unknown};
-use super::observation::{Aim, Observation, View, weights};
-use crate::entrance::{LogGradient, log_squared_tangent};
-use crate::sheeting::{RetroLobe, Sheeting, UnitLobe};
+use super::form::{Form, Unknown};
+use super::observation::{Aim, Observation, weights};
+use super::rows::Rows;
+use super::walls::Walls;
+use crate::sheeting::Sheeting;
 
-/// Step of the logarithm of a roughness in the difference quotients: their error is below 1e-8.
-const ROUGHNESS_STEP: f64 = 1e-4;
 /// Weight of the priors beside a row that is a factor of e off: they decide only what no row decides.
-const PRIOR_WEIGHT: f64 = 1e-3;
-/// Weight of an albedo above 1.
-const ENERGY_WEIGHT: f64 = 100.0;
+pub(crate) const PRIOR_WEIGHT: f64 = 1e-3;
+/// Weight of what is beyond a wall, beside a row that is off by a factor of e.
+const WALL_WEIGHT: f64 = 100.0;
 /// Weight of a limit that is broken, and of a minimum that is met with something to spare.
 const BROKEN_WEIGHT: f64 = 10.0;
 const SPARE_WEIGHT: f64 = 0.5;
-/// The model's values are kept above this share of the observed one, so that logarithms stay finite.
-const LEAST_RATIO: f64 = 1e-12;
+/// How much more the part of a row's error counts that is beyond the tolerance.
+const HINGE_WEIGHT: f64 = 30.0;
 
 /// A form, the data, and the point where the model is.
 #[derive(Clone, Debug)]
 pub(crate) struct Problem<'a> {
     form: Form,
-    unknowns: Vec<Unknown>,
-    observations: &'a [Observation],
+    pub(crate) unknowns: Arc<[Unknown]>,
+    pub(crate) rows: Arc<Rows<'a>>,
+    pub(crate) walls: Arc<Walls>,
     /// The rows' weights.
     pub(crate) weights: Vec<f64>,
-    /// Greatest channel of the tint over its luminance: what the energy in that channel is.
-    channel_peak: f64,
+    /// The error of a row, as a logarithm, beyond which it counts more.
+    hinge: f64,
     /// The vector on the unbounded scale.
     free: DVector<f64>,
 }
 
-/// What a lobe sends along the views of an observation, without its strength and entrance factor.
-struct UnitLobes {
-    middle: UnitLobe,
-    /// With the roughness a step up and down, for each axis or both.
-    stepped: Vec<(Option<usize>, [UnitLobe; 2])>,
+/// The problem at a point, and how it changes there with the vector on the unbounded scale.
+pub(crate) struct Linear {
+    pub(crate) logs: Vec<f64>,
+    pub(crate) jacobian: DMatrix<f64>,
+    /// What is before and beyond the walls that are near.
+    pub(crate) walls: Vec<(f64, DVector<f64>)>,
+    /// The priors' residuals and their derivatives.
+    pub(crate) priors: Vec<[f64; 2]>,
 }
 
 impl<'a> Problem<'a> {
-    pub(crate) fn new(form: Form, observations: &'a [Observation], channel_peak: f64, start: &[f64]) -> Self {
-        let unknowns = form.unknowns();
-        let free = unknowns.iter().zip(start).map(|(unknown, &x)| logit(unknown.bounds, x));
-        let free = DVector::from_iterator(unknowns.len(), free);
-        Self { form, observations, weights: weights(observations).0, channel_peak, free, unknowns }
+    pub(crate) fn new(form: Form, observations: &'a [Observation], channel_peak: f64, x: &[f64]) -> Self {
+        let unknowns: Arc<[Unknown]> = form.unknowns().into();
+        Self {
+            form,
+            rows: Arc::new(Rows::new(&form, observations)),
+            weights: weights(observations).0,
+            walls: Arc::new(Walls::new(channel_peak)),
+            hinge: f64::INFINITY,
+            free: free(&unknowns, x),
+            unknowns,
+        }
+    }
+
+    /// The same problem with the model elsewhere.
+    pub(crate) fn at(&self, x: &[f64]) -> Self {
+        Self { free: free(&self.unknowns, x), ..self.clone() }
+    }
+
+    /// The same problem with the model a step away on the unbounded scale.
+    pub(crate) fn moved(&self, step: &DVector<f64>) -> Self {
+        Self { free: &self.free + step, ..self.clone() }
+    }
+
+    /// The same problem with rows that count more beyond this logarithm.
+    pub(crate) fn held(&self, hinge: f64) -> Self {
+        Self { hinge, ..self.clone() }
     }
 
     pub(crate) fn form(&self) -> Form {
@@ -63,129 +89,40 @@ impl<'a> Problem<'a> {
         self.form.sheeting(&self.unknowns, &self.x())
     }
 
-    /// Logarithms of model over value, not weighted.
-    pub(crate) fn log_ratios(&self) -> Option<Vec<f64>> {
-        log_ratios(&self.sheeting(), self.observations)
-    }
-
-    /// How much an observation's logarithm counts.
-    fn weight(&self, row: usize, log_ratio: f64) -> f64 {
-        self.weights[row] * aim_weight(self.observations[row].aim, log_ratio)
-    }
-
-    /// Rows of the residuals: the observations, the energy, the priors.
-    fn rows(&self) -> usize {
-        self.observations.len() + 1 + self.unknowns.len()
-    }
-
     /// The rows' derivatives by the numbers within their bounds, not weighted.
     pub(crate) fn log_jacobian(&self) -> Option<DMatrix<f64>> {
+        Some(self.rows.log_jacobian(&self.sheeting(), &self.unknowns)?.1)
+    }
+
+    /// The problem and its derivatives at the present point.
+    pub(crate) fn linear(&self) -> Option<Linear> {
         let sheeting = self.sheeting();
-        let lobes = sheeting.lobes.iter().enumerate();
-        let lobes: Vec<_> = lobes.map(|(i, lobe)| self.unit_lobes(i, lobe)).collect::<Option<_>>()?;
-        let mut jacobian = DMatrix::zeros(self.observations.len(), self.unknowns.len());
-        let mut row = vec![0.0; self.unknowns.len()];
-        for (j, observation) in self.observations.iter().enumerate() {
-            row.fill(0.0);
-            let mut total = 0.0;
-            for view in &observation.views {
-                total += self.accumulate(&sheeting, &lobes, view, &mut row);
-            }
-            let total = total.max(observation.value * LEAST_RATIO);
-            for (k, derivative) in row.iter().enumerate() {
-                jacobian[(j, k)] = derivative / total;
-            }
+        let (logs, mut jacobian) = self.rows.log_jacobian(&sheeting, &self.unknowns)?;
+        let numbers = self.unknowns.iter().zip(&self.free);
+        let slopes: Vec<f64> = numbers.map(|(unknown, &free)| logistic_slope(unknown.bounds, free)).collect();
+        for (mut column, slope) in jacobian.column_iter_mut().zip(&slopes) {
+            column *= *slope;
         }
-        Some(jacobian)
-    }
-
-    fn unit_lobes(&self, lobe: usize, own: &RetroLobe) -> Option<UnitLobes> {
-        let with = |axis: Option<usize>, step: f64| {
-            let moved = |i: usize| if axis.is_none_or(|axis| axis == i) { step.exp() } else { 1.0 };
-            let roughness = [0, 1].map(|i| own.roughness[i] * moved(i));
-            UnitLobe::new(self.form.model, &RetroLobe { roughness, ..*own }).ok()
-        };
-        let axes = self.unknowns.iter().filter_map(|unknown| match unknown.meaning {
-            Meaning::Roughness(i, axis) if i == lobe => Some(axis),
-            _ => None,
+        let walls = self.walls.beyond(&sheeting, &self.unknowns).into_iter().map(|beyond| {
+            let by_free = beyond.slopes.iter().zip(&slopes).map(|(a, b)| a * b);
+            (beyond.by, DVector::from_iterator(slopes.len(), by_free))
         });
-        let stepped = axes.map(|axis| {
-            let pair = [with(axis, ROUGHNESS_STEP)?, with(axis, -ROUGHNESS_STEP)?];
-            Some((axis, pair))
-        });
-        Some(UnitLobes { middle: with(None, 0.0)?, stepped: stepped.collect::<Option<_>>()? })
+        let priors = self.priors().into_iter().zip(self.unknowns.iter().zip(&slopes));
+        let priors = priors.map(|(residual, (unknown, slope))| [residual, slope / unknown.prior[1]]);
+        Some(Linear { logs, jacobian, walls: walls.collect(), priors: priors.collect() })
     }
 
-    /// Adds a view's derivatives to `row`; returns its value.
-    fn accumulate(&self, sheeting: &Sheeting, lobes: &[UnitLobes], view: &View, row: &mut [f64]) -> f64 {
-        let View { wo, wi, factor } = *view;
-        let factor = factor * sheeting.transmitted(wo);
-        let log_tangent = log_squared_tangent(wo.z);
-        let mut total = 0.0;
-        for (i, (own, lobe)) in sheeting.lobes.iter().zip(lobes).enumerate() {
-            let gradient = own.entrance.map(|law| law.log_gradient(log_tangent));
-            let common = factor * own.strength * own.factor(self.form.model, wo.z);
-            let value = common * lobe.middle.eval(wo, wi);
-            total += value;
-            for (unknown, slot) in self.unknowns.iter().zip(&mut *row) {
-                if unknown.meaning.concerns(i) {
-                    *slot += match unknown.meaning {
-                        Meaning::Roughness(_, axis) => common * lobe.slope(axis, view),
-                        meaning => value * by(meaning, gradient),
-                    };
-                }
-            }
-        }
-        let base = factor * sheeting.diffuse / core::f64::consts::PI;
-        for (unknown, slot) in self.unknowns.iter().zip(row) {
-            if unknown.meaning == Meaning::Diffuse {
-                *slot += base;
-            }
-        }
-        total + base
+    fn priors(&self) -> Vec<f64> {
+        self.unknowns.iter().zip(self.x()).map(|(unknown, x)| unknown.prior_residual(x)).collect()
     }
 
-    /// By how much the albedo may exceed 1, in the channel with the most of it.
-    fn energy_excess(&self) -> f64 {
-        excess(&self.sheeting(), self.channel_peak)
+    /// A row's residual and its derivative by the logarithm.
+    fn residual(&self, row: usize, log: f64) -> (f64, f64) {
+        let weight = self.weights[row] * aim_weight(self.rows.observations[row].aim, log);
+        let beyond = (log.abs() - self.hinge).max(0.0);
+        let steep = if beyond > 0.0 { 1.0 + HINGE_WEIGHT } else { 1.0 };
+        (weight * (log + HINGE_WEIGHT * beyond.copysign(log)), weight * steep)
     }
-}
-
-impl UnitLobes {
-    /// The derivative of the BSDF by the logarithm of the roughness.
-    fn slope(&self, axis: Option<usize>, view: &View) -> f64 {
-        let found = self.stepped.iter().find(|(of, _)| *of == axis);
-        let difference = |[up, down]: &[UnitLobe; 2]| {
-            (up.eval(view.wo, view.wi) - down.eval(view.wo, view.wi)) / (2.0 * ROUGHNESS_STEP)
-        };
-        found.map_or(0.0, |(_, pair)| difference(pair))
-    }
-}
-
-/// The derivative of a lobe's logarithm by a number that is not its roughness.
-fn by(meaning: Meaning, gradient: Option<LogGradient>) -> f64 {
-    match (meaning, gradient) {
-        (Meaning::Power(_), Some(gradient)) => gradient.by_slope,
-        (Meaning::Bend, Some(gradient)) => gradient.by_log_bend,
-        (Meaning::Sharpness, Some(gradient)) => gradient.by_log_sharpness,
-        _ => 1.0,
-    }
-}
-
-/// The logarithms of model over value; `None` where a roughness is out of range.
-pub(crate) fn log_ratios(sheeting: &Sheeting, observations: &[Observation]) -> Option<Vec<f64>> {
-    let prepared = sheeting.prepare().ok()?;
-    let ratio = |observation: &Observation| {
-        let views = observation.views.iter();
-        let value: f64 = views.map(|view| view.factor * prepared.eval(view.wo, view.wi)).sum();
-        (value / observation.value).max(LEAST_RATIO).ln()
-    };
-    Some(observations.iter().map(ratio).collect())
-}
-
-/// By how much the albedo may exceed 1, in the channel with the most of it.
-pub(crate) fn excess(sheeting: &Sheeting, channel_peak: f64) -> f64 {
-    (sheeting.albedo_bound() * channel_peak - 1.0).max(0.0)
 }
 
 /// How much a row's logarithm counts.
@@ -199,6 +136,7 @@ pub(crate) fn aim_weight(aim: Aim, log_ratio: f64) -> f64 {
     }
 }
 
+/// The residuals are those of the observations, of all walls together, and of the priors.
 impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
     type ResidualStorage = Owned<f64, Dyn>;
     type JacobianStorage = Owned<f64, Dyn, Dyn>;
@@ -213,44 +151,42 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
     }
 
     fn residuals(&self) -> Option<DVector<f64>> {
-        let logs = self.log_ratios()?;
-        let data = logs.iter().enumerate().map(|(row, &log)| self.weight(row, log) * log);
-        let energy = ENERGY_WEIGHT * self.energy_excess();
-        let x = self.x();
-        let prior_residual = |(unknown, x): (&Unknown, &f64)| PRIOR_WEIGHT * unknown.prior_residual(*x);
-        let priors = self.unknowns.iter().zip(&x).map(prior_residual);
-        Some(DVector::from_iterator(self.rows(), data.chain([energy]).chain(priors)))
+        let sheeting = self.sheeting();
+        let logs = self.rows.log_ratios(&sheeting)?;
+        let data = logs.iter().enumerate().map(|(row, &log)| self.residual(row, log).0);
+        let beyond = self.walls.beyond(&sheeting, &self.unknowns).into_iter().map(|wall| wall.by.max(0.0));
+        let wall = WALL_WEIGHT * beyond.map(|by| by * by).sum::<f64>().sqrt();
+        let priors = self.priors().into_iter().map(|prior| PRIOR_WEIGHT * prior);
+        let count = logs.len() + 1 + self.unknowns.len();
+        Some(DVector::from_iterator(count, data.chain([wall]).chain(priors)))
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
-        let data = self.log_jacobian()?;
-        let logs = self.log_ratios()?;
+        let Linear { logs, jacobian: data, walls, priors } = self.linear()?;
         let (rows, columns) = data.shape();
-        let mut jacobian = DMatrix::zeros(self.rows(), columns);
-        for (k, unknown) in self.unknowns.iter().enumerate() {
-            let slope = logistic_slope(unknown.bounds, self.free[k]);
-            for j in 0..rows {
-                jacobian[(j, k)] = self.weight(j, logs[j]) * data[(j, k)] * slope;
+        let mut jacobian = DMatrix::zeros(rows + 1 + columns, columns);
+        jacobian.rows_mut(0, rows).copy_from(&data);
+        for (j, &log) in logs.iter().enumerate() {
+            jacobian.row_mut(j).scale_mut(self.residual(j, log).1);
+        }
+        let beyond: Vec<_> = walls.into_iter().filter(|(by, _)| *by > 0.0).collect();
+        let norm = beyond.iter().map(|(by, _)| by * by).sum::<f64>().sqrt();
+        for (by, slopes) in &beyond {
+            for (k, slope) in slopes.iter().enumerate() {
+                jacobian[(rows, k)] += WALL_WEIGHT * by / norm * slope;
             }
-            jacobian[(rows, k)] = ENERGY_WEIGHT * self.energy_slope(k);
-            jacobian[(rows + 1 + k, k)] = PRIOR_WEIGHT / unknown.prior[1] * slope;
+        }
+        for (k, [_, slope]) in priors.into_iter().enumerate() {
+            jacobian[(rows + 1 + k, k)] = PRIOR_WEIGHT * slope;
         }
         Some(jacobian)
     }
 }
 
-impl Problem<'_> {
-    /// The energy's derivative by a free number: one-sided, as it is 0 where the energy is conserved.
-    fn energy_slope(&self, k: usize) -> f64 {
-        const STEP: f64 = 1e-6;
-        let here = self.energy_excess();
-        if here == 0.0 {
-            return 0.0;
-        }
-        let mut moved = self.clone();
-        moved.free[k] += STEP;
-        (moved.energy_excess() - here) / STEP
-    }
+/// The vector on the unbounded scale.
+fn free(unknowns: &[Unknown], x: &[f64]) -> DVector<f64> {
+    let free = unknowns.iter().zip(x).map(|(unknown, &x)| logit(unknown.bounds, x));
+    DVector::from_iterator(unknowns.len(), free)
 }
 
 /// The number within its bounds, from the unbounded scale.
@@ -268,4 +204,54 @@ fn logit([low, high]: [f64; 2], x: f64) -> f64 {
     const INSIDE: f64 = 1e-3;
     let share = ((x - low) / (high - low)).clamp(INSIDE, 1.0 - INSIDE);
     (share / (1.0 - share)).ln()
+}
+
+#[cfg(test)]
+mod tests {
+    use catseye::Model;
+
+    use super::*;
+    use crate::fit::EntranceKind;
+    use crate::{Row, Table};
+
+    /// Every number of every kind of form, against difference quotients.
+    #[test]
+    fn derivatives_are_those_of_the_values() {
+        let csv = "observation_deg,entrance_deg,value\n0.2,-4,300\n0.5,30,40\n1,45,9\n0.3,20,120\n";
+        let table = Table::parse_values(csv.as_bytes(), "t").unwrap();
+        let row = |row: &Row| Observation::from_row(row, Aim::Equal, None).unwrap();
+        let observations: Vec<Observation> = table.rows().iter().map(row).collect();
+        for model in [Model::Reciprocal, Model::BackVector] {
+            for (entrance, shared) in [(EntranceKind::Constant, true), (EntranceKind::Bend, false)] {
+                for anisotropic in [false, true] {
+                    let form = Form {
+                        model,
+                        lobes: 2,
+                        entrance,
+                        shared,
+                        anisotropic,
+                        diffuse: true,
+                        roughness: None,
+                        coat_ior: Some(1.5),
+                    };
+                    // Lobes of two roughnesses that are the same keep their width.
+                    let place = |(k, unknown): (usize, &Unknown)| unknown.prior[0] + 0.1 + 0.02 * k as f64;
+                    let x: Vec<f64> = form.unknowns().iter().enumerate().map(place).collect();
+                    // The energy's wall is near at a peak of 8.
+                    let problem = Problem::new(form, &observations, 8.0, &x);
+                    let jacobian = problem.jacobian().unwrap();
+                    for k in 0..x.len() {
+                        let step = |by: f64| {
+                            let mut step = DVector::zeros(x.len());
+                            step[k] = by;
+                            problem.moved(&step).residuals().unwrap()
+                        };
+                        let quotient = (step(1e-5) - step(-1e-5)) / 2e-5;
+                        let apart = (jacobian.column(k) - &quotient).amax();
+                        assert!(apart < 1e-5 * (1.0 + quotient.amax()), "{form:?} {k}: {apart}");
+                    }
+                }
+            }
+        }
+    }
 }

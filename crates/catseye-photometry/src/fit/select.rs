@@ -3,7 +3,7 @@
 use super::form::{EntranceKind, Form};
 use super::observation::{Aim, Observation, SAME_ANGLE, weights};
 use super::physical::Fault;
-use super::solve::{Solution, TABLE_ROWS, polish, solve};
+use super::solve::{Solution, TABLE_ROWS, solve};
 use super::{FitError, FitOptions, Trial, is_acceptable};
 use crate::Geometry;
 
@@ -43,6 +43,22 @@ impl Span {
         }
     }
 
+    /// Whether there are two observation angles and two entrance angles at least.
+    #[cfg(test)]
+    pub(crate) fn is_grid(&self) -> bool {
+        self.observation.len() > 1 && self.entrance.len() > 1
+    }
+
+    /// Whether an observation's angles are within those.
+    #[cfg(test)]
+    pub(crate) fn holds(&self, row: &Observation) -> bool {
+        let centre = row.centre();
+        let is_within = |angles: &[f64], angle: f64| {
+            angle > angles[0] - SAME_ANGLE && angle < angles[angles.len() - 1] + SAME_ANGLE
+        };
+        is_within(&self.observation, centre.observation()) && is_within(&self.entrance, centre.entrance())
+    }
+
     /// What the data leave open whatever the form.
     pub(crate) fn warnings(&self, options: &FitOptions, rows: usize, unknowns: usize) -> Vec<String> {
         let mut warnings = Vec::new();
@@ -75,7 +91,7 @@ impl Span {
     }
 
     /// The forms to try for so many rows, those with fewer numbers first.
-    fn forms(&self, options: &FitOptions, rows: usize) -> Vec<Form> {
+    pub(crate) fn forms(&self, options: &FitOptions, rows: usize) -> Vec<Form> {
         let lobes = options.lobes.or(options.roughness.map(|_| 1));
         let most = if rows > TABLE_ROWS { MAX_LOBES } else { MAX_LOBES_OF_TABLE };
         let lobes = lobes.map_or(1..=most, |lobes| lobes..=lobes);
@@ -121,6 +137,7 @@ pub(crate) fn choose(
     observations: &[Observation],
     options: &FitOptions,
     span: &Span,
+    forms: &[Form],
 ) -> Result<(Solution, Vec<Trial>), FitError> {
     let rows = observations.len();
     let judged = match observations.iter().any(|row| row.aim == Aim::AtLeast) {
@@ -130,7 +147,7 @@ pub(crate) fn choose(
     };
     let mut trials = Vec::new();
     let mut found: Vec<(Solution, (bool, bool))> = Vec::new();
-    for form in span.forms(options, rows) {
+    for &form in forms {
         let simpler = found.iter().map(|(solution, _)| solution);
         let Some(solution) = solve(form, observations, options.channel_peak, options.tolerance, simpler)
         else {
@@ -150,7 +167,7 @@ pub(crate) fn choose(
         b.1.cmp(&a.1).then(judged.score(&a.0).total_cmp(&judged.score(&b.0)))
     };
     let (best, _) = found.into_iter().min_by(better).ok_or(FitError::NoSolution)?;
-    Ok((polish(best, observations, options.channel_peak, options.tolerance), trials))
+    Ok((best, trials))
 }
 
 /// What makes a form better than another one. The last two are Bayesian information criteria, of limits with
