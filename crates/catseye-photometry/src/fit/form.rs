@@ -22,6 +22,11 @@ const POWER: [f64; 2] = [1.0, 6.0];
 const BEND: [f64; 2] = [1.0 / 3.0, 7.55];
 /// Sharpness of the bend: 2 is that of a power of the cosine; at 12 it is over within 10 degrees.
 const SHARPNESS: [f64; 2] = [2.0, 12.0];
+/// The laws that are steepest of all, before the bend and beyond it.
+pub(crate) const EXTREME_LAWS: [EntranceLaw; 2] = [
+    EntranceLaw { slope: POWER[1], bend: BEND[0], sharpness: SHARPNESS[0] },
+    EntranceLaw { slope: POWER[1], bend: BEND[0], sharpness: SHARPNESS[1] },
+];
 /// What beads and metallised cubes have: 45 to 50 degrees, 2 to 3, and a power of about 3.
 const POWER_PRIOR: [f64; 2] = [3.0, 2.0];
 const BEND_PRIOR: [f64; 2] = [1.0, 1.7];

@@ -69,13 +69,18 @@ pub(crate) fn minimax(problem: &mut Problem<'_>, enough: f64) {
 
 impl Linear {
     fn worst(&self) -> f64 {
-        self.logs.iter().fold(0.0, |worst, log| log.abs().max(worst))
+        self.sides().flatten().fold(0.0, f64::max)
+    }
+
+    /// How far above and below its value each row is; below a maximum is no error.
+    fn sides(&self) -> impl Iterator<Item = [f64; 2]> {
+        let below = |(log, is_maximum): (&f64, &bool)| if *is_maximum { f64::NEG_INFINITY } else { -log };
+        self.logs.iter().zip(&self.are_maxima).map(move |row| [*row.0, below(row)])
     }
 
     /// The errors either way, and the walls as if a material on a wall had the error `worst`.
     fn levels(&self, worst: f64) -> impl Iterator<Item = f64> {
-        let rows = self.logs.iter().flat_map(|log| [*log, -log]);
-        rows.chain(self.walls.iter().map(move |(beyond, _)| worst + WALL_WEIGHT * beyond))
+        self.sides().flatten().chain(self.walls.iter().map(move |(beyond, _)| worst + WALL_WEIGHT * beyond))
     }
 
     fn prior_cost(&self) -> f64 {

@@ -150,8 +150,9 @@ pub fn fit(observations: &[Observation], options: &FitOptions) -> Result<Fit, Fi
     let outliers = outlier::outliers(&solution, observations, options);
     // The noise of measurements is not log-convex either.
     let is_table = observations.len() <= TABLE_ROWS;
-    let shape =
-        (is_table && options.model == Model::Reciprocal).then(|| shape::shape_bound(observations)).flatten();
+    let shape = (is_table && options.model == Model::Reciprocal)
+        .then(|| shape::shape_bound(observations, options))
+        .flatten();
     let fault = span.fault(&solution);
     Ok(Fit {
         form: solution.form,

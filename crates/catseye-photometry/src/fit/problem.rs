@@ -39,6 +39,8 @@ pub(crate) struct Problem<'a> {
 /// The problem at a point, and how it changes there with the vector on the unbounded scale.
 pub(crate) struct Linear {
     pub(crate) logs: Vec<f64>,
+    /// Whether each row is a maximum.
+    pub(crate) are_maxima: Vec<bool>,
     pub(crate) jacobian: DMatrix<f64>,
     /// What is before and beyond the walls that are near.
     pub(crate) walls: Vec<(f64, DVector<f64>)>,
@@ -109,7 +111,8 @@ impl<'a> Problem<'a> {
         });
         let priors = self.priors().into_iter().zip(self.unknowns.iter().zip(&slopes));
         let priors = priors.map(|(residual, (unknown, slope))| [residual, slope / unknown.prior[1]]);
-        Some(Linear { logs, jacobian, walls: walls.collect(), priors: priors.collect() })
+        let are_maxima = self.rows.observations.iter().map(|row| row.aim == Aim::AtMost).collect();
+        Some(Linear { logs, are_maxima, jacobian, walls: walls.collect(), priors: priors.collect() })
     }
 
     fn priors(&self) -> Vec<f64> {
@@ -162,7 +165,7 @@ impl LeastSquaresProblem<f64, Dyn, Dyn> for Problem<'_> {
     }
 
     fn jacobian(&self) -> Option<DMatrix<f64>> {
-        let Linear { logs, jacobian: data, walls, priors } = self.linear()?;
+        let Linear { logs, jacobian: data, walls, priors, .. } = self.linear()?;
         let (rows, columns) = data.shape();
         let mut jacobian = DMatrix::zeros(rows + 1 + columns, columns);
         jacobian.rows_mut(0, rows).copy_from(&data);

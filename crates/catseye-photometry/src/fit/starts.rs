@@ -3,7 +3,7 @@
 use rayon::prelude::*;
 
 use super::form::{Form, Meaning, Unknown};
-use super::observation::{RETRO_REACH, SAME_ANGLE};
+use super::observation::{Aim, Observation, RETRO_REACH, SAME_ANGLE};
 use super::problem::Problem;
 use super::rows::Rows;
 use super::solve::TABLE_ROWS;
@@ -88,11 +88,18 @@ fn sort_widths(unknowns: &[Unknown], x: &mut [f64]) {
 fn strengthen(form: Form, unknowns: &[Unknown], rows: &Rows<'_>, x: &mut [f64]) -> Option<f64> {
     let mut columns = rows.columns(&form.sheeting(unknowns, x))?;
     columns.truncate(form.lobes + usize::from(form.diffuse));
+    // Below a maximum is nowhere in particular.
+    let counts = |row: &Observation| row.aim != Aim::AtMost;
+    let rows_that_count: Vec<usize> =
+        (0..rows.observations.len()).filter(|&j| counts(&rows.observations[j])).collect();
+    for column in &mut columns {
+        *column = rows_that_count.iter().map(|&j| column[j]).collect();
+    }
     let sums: Vec<f64> = columns.iter().map(|column| column.iter().sum()).collect();
-    let count = rows.observations.len() as f64;
+    let count = rows_that_count.len() as f64;
     let mut strengths: Vec<f64> =
         sums.iter().map(|sum| count / (sum * columns.len() as f64)).map(|s| s.min(1.0)).collect();
-    let mut ratios = vec![0.0; rows.observations.len()];
+    let mut ratios = vec![0.0; rows_that_count.len()];
     for _ in 0..STEPS {
         for (j, ratio) in ratios.iter_mut().enumerate() {
             let parts = columns.iter().zip(&strengths).map(|(column, strength)| strength * column[j]);
@@ -111,7 +118,8 @@ fn strengthen(form: Form, unknowns: &[Unknown], rows: &Rows<'_>, x: &mut [f64]) 
         };
         *x = strength.ln().clamp(unknown.bounds[0], unknown.bounds[1]);
     }
-    Some(spread(&rows.log_ratios(&form.sheeting(unknowns, x))?))
+    let logs = rows.log_ratios(&form.sheeting(unknowns, x))?;
+    Some(spread(&rows_that_count.iter().map(|&j| logs[j]).collect::<Vec<_>>()))
 }
 
 /// How far from each other the logarithms are: of a table the extremes, of measurements all of them.

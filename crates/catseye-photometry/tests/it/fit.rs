@@ -131,6 +131,7 @@ fn standards_are_met_within_5_percent_by_what_sheeting_can_be() {
         let id = class.id();
         println!("{id}: {} numbers, worst {:.4}", found.estimates.len(), found.worst);
         assert!(found.sheeting.albedo_bound() * colour.peak() <= 1.0 + 1e-6, "{id}");
+        assert!(found.shape.is_none_or(|bound| bound.error <= found.worst), "{id}: {:?}", found.shape);
         assert_eq!(found.fault, None, "{id}");
         match UNMET.iter().find(|(name, _)| *name == id) {
             Some((_, worst)) => {
@@ -165,6 +166,16 @@ fn tables_that_came_later_are_met_as_well_as_is_said() {
         println!("{name}: {} numbers, worst {:.4}", found.estimates.len(), found.worst);
         assert!(found.worst < worst && found.fault.is_none(), "{name}: {}", found.worst);
     }
+}
+
+/// A maximum is no value: that a plate may be seven times as bright draws nothing towards it.
+#[test]
+fn a_maximum_far_away_changes_nothing() {
+    let class = Catalogue::embedded().unwrap().find("fr-plate:yellow").unwrap().clone();
+    let aim = |limit| if limit == Limit::Maximum { Aim::AtMost } else { Aim::Equal };
+    let rows = class.rows().iter().map(|row| Observation::from_row(row, aim(row.limit), None).unwrap());
+    let found = fit(&rows.collect::<Vec<_>>(), &FitOptions::default()).unwrap();
+    assert!(found.worst < 0.05, "{}", found.worst);
 }
 
 /// Tables with several minima, or at the edge of the tolerance: noise in the tenth digit must not decide
