@@ -150,7 +150,12 @@ mod tests {
     fn seen(value: f64, geometry: Geometry) -> Observation {
         let Geometry { wo, wi } = geometry;
         let factor = Quantity::RetroReflectionCoefficient.of_brdf(1.0, &geometry).unwrap();
-        Observation { value, aim: Aim::Equal, views: vec![super::super::View { wo, wi, factor }] }
+        Observation {
+            value,
+            aim: Aim::Equal,
+            views: vec![super::super::View { wo, wi, factor }],
+            uncertainty: None,
+        }
     }
 
     /// The bound of a table that a material of the family has, but for noise, is at most that noise: what
