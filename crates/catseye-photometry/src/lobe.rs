@@ -131,8 +131,8 @@ impl UnitLobe {
         }
     }
 
-    /// A lobe of the disk, the exponents that it sees, and what its first one is multiplied by: along the viewer's
-    /// projection its roughness is that over N.V where it keeps its width.
+    /// A lobe of the disk, the exponents that it sees, and what its first one is multiplied by: along the
+    /// viewer's projection its roughness is that over N.V where it keeps its width.
     fn disk(&self, pair: &Pair) -> (f64, [f64; 2], f64) {
         let &Self::Disk { exponents: [n_u, n_v], keeps_width } = self else { return (0.0, [0.0; 2], 1.0) };
         let squeeze = if keeps_width { pair.cosine * pair.cosine } else { 1.0 };

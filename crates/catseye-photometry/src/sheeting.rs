@@ -43,7 +43,8 @@ pub struct Sheeting {
     pub diffuse: f64,
     /// Refractive index of a clear coat, where there is one.
     pub coat_ior: Option<f64>,
-    /// Roughness of the coat's surface, GGX's alpha in [0, 1]; 0 is smooth. What lies below sees a smooth one.
+    /// Roughness of the coat's surface, GGX's alpha in [0, 1]; 0 is smooth. What lies below sees a smooth
+    /// one.
     pub coat_roughness: f64,
 }
 

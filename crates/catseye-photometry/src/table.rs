@@ -180,8 +180,8 @@ impl Table {
     ///
     /// # Errors
     /// Names line and column of: text that is not UTF-8 or longer than 16 MiB, a missing or doubled column, a
-    /// table without rows or with more than 250 000, an angle that is no number or out of its range, a receiver
-    /// below the surface, angles of another goniometer system.
+    /// table without rows or with more than 250 000, an angle that is no number or out of its range, a
+    /// receiver below the surface, angles of another goniometer system.
     pub fn parse_geometries(bytes: &[u8], name: &str) -> Result<Self, Error> {
         Self::parse(bytes, name, Need::Geometry)
     }

@@ -40,7 +40,8 @@ pub struct Part {
 }
 
 impl Part {
-    /// The part as an EXR file, which shows the picture so far and has the exact sums in channels of their own.
+    /// The part as an EXR file, which shows the picture so far and has the exact sums in channels of their
+    /// own.
     ///
     /// # Errors
     /// What the encoder says.

@@ -31,8 +31,8 @@ pub(crate) struct Compensation<T> {
 }
 
 impl<T: Real> Compensation<T> {
-    /// Prepares the lobe for the widths of the disk distribution. Where nothing is compensated only its losses
-    /// are asked for: its norm is 0, and the table of its samples empty, which takes most of the time.
+    /// Prepares the lobe for the widths of the disk distribution. Where nothing is compensated only its
+    /// losses are asked for: its norm is 0, and the table of its samples empty, which takes most of the time.
     pub(crate) fn new(widths: [T; 2], is_used: bool) -> Self {
         let fit = FastFit::new(widths);
         let table = [T::ZERO; NODES];

@@ -34,8 +34,8 @@ pub(crate) fn luminance(
     if view.is_hidden {
         return Ok(0.0);
     }
-    // The scene stands in the sign's frame, as a goniometer's: world-space inputs of the material are where the
-    // closed form has them, and single precision has the most digits at the sign.
+    // The scene stands in the sign's frame, as a goniometer's: world-space inputs of the material are where
+    // the closed form has them, and single precision has the most digits at the sign.
     let axes = [view.datum, view.normal.cross(view.datum), view.normal];
     let place = |v: Vector| {
         let from_sign = v - view.sign;

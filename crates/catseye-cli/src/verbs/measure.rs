@@ -26,9 +26,9 @@ use crate::{help, report};
 ///
 /// Answers the rows of a table with the material's value in a column `model`, in the row's unit: R_A in
 /// cd/lx/m2 where neither `quantity` nor `unit` say something else. Observation and entrance angles are those
-/// of the CIE goniometer system; where a row has apertures, the value is the mean over them. Colours count as luminance in linear Rec. 709. What the
-/// surface emits and the mirror image of the lamp in a smooth coat are not measured; a lobe of roughness 0,
-/// which returns all light in one direction, is an error.
+/// of the CIE goniometer system; where a row has apertures, the value is the mean over them. Colours count as
+/// luminance in linear Rec. 709. What the surface emits and the mirror image of the lamp in a smooth coat are
+/// not measured; a lobe of roughness 0, which returns all light in one direction, is an error.
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::measure())]
 pub(crate) struct Args {

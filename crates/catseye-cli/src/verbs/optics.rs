@@ -45,7 +45,8 @@ struct BeadArgs {
     /// What is before the beads and between them and the reflector
     #[arg(long, value_enum, default_value_t)]
     mount: MountArg,
-    /// Refractive index of the glass, above 1, at most 3 [default: 1.93 exposed, 1.9 encapsulated, 2.2 enclosed]
+    /// Refractive index of the glass, above 1, at most 3 [default: 1.93 exposed, 1.9 encapsulated, 2.2
+    /// enclosed]
     #[arg(long, value_name = "N")]
     index: Option<f64>,
     /// Mean diameter in micrometres, 5 to 1000
@@ -145,7 +146,8 @@ struct CubeArgs {
     /// Length of the edges that meet at the apex, in micrometres, 10 to 10000
     #[arg(long, value_name = "UM", default_value_t = Cubes::default().leg_um)]
     leg_um: f64,
-    /// By how much the dihedral angles at the three edges exceed 90 degrees, in arc minutes: one for all, or three
+    /// By how much the dihedral angles at the three edges exceed 90 degrees, in arc minutes: one for all, or
+    /// three
     #[arg(long, value_name = "E[,E,E]", default_value = "0")]
     errors_arcmin: Errors,
     /// Standard deviation of random errors besides, in arc minutes, 0 to 60

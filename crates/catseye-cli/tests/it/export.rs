@@ -1,4 +1,5 @@
-//! `catseye export` writes what other programs read, says how far it is off, and refuses what they can't have.
+//! `catseye export` writes what other programs read, says how far it is off, and refuses what they can't
+//! have.
 
 use crate::run::{Bench, column};
 
@@ -150,7 +151,8 @@ fn wrong_wishes_are_refused_in_a_line() {
     }
 }
 
-/// A lobe narrower than three.js renders is given the least roughness that it does, and the error that goes with it.
+/// A lobe narrower than three.js renders is given the least roughness that it does, and the error that goes
+/// with it.
 #[test]
 fn what_an_engine_can_t_reach_is_in_its_error() {
     let bench = Bench::new();
@@ -204,7 +206,8 @@ fn a_table_without_a_width_is_exported_as_what_was_fitted() {
     assert!(outcome.stdout.contains("against the table: worst"), "{}", outcome.stdout);
 }
 
-/// A coat, a rough base and the compensation of a narrow lobe are in Radiance's material, or in what is said of it.
+/// A coat, a rough base and the compensation of a narrow lobe are in Radiance's material, or in what is said
+/// of it.
 #[test]
 fn radiance_is_told_of_the_whole_sheeting() {
     let bench = Bench::with_materials();

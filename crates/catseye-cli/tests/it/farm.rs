@@ -59,7 +59,8 @@ import render_dask
 
 if __name__ == '__main__':
     folder, command, material = sys.argv[1:]
-    with LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster, Client(cluster) as client:
+    cluster = LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None)
+    with cluster, Client(cluster) as client:
         workers = client.run(os.getpid)
         def lose_a_worker():
             while not glob.glob(folder + '/part_*.exr'):

@@ -1,8 +1,8 @@
 //! The data library loads, generates, compiles, evaluates and renders in MaterialX itself, as our own code
 //! does.
 //!
-//! Runs the Python tests of `crates/catseye-materialx/tests/materialx`. Where a display can't be had, those that
-//! need one are skipped, and say so; with `CATSEYE_REQUIRE=all` that is a failure.
+//! Runs the Python tests of `crates/catseye-materialx/tests/materialx`. Where a display can't be had, those
+//! that need one are skipped, and say so; with `CATSEYE_REQUIRE=all` that is a failure.
 
 use std::path::PathBuf;
 use std::process::Command;

@@ -1,7 +1,7 @@
 //! Tests in Python, of what other programs make of our files.
 //!
-//! They get a virtual environment under the target folder, made at the first run. Where Python or the packages
-//! can't be had they are skipped, and say so; with `CATSEYE_REQUIRE=all` that is a failure.
+//! They get a virtual environment under the target folder, made at the first run. Where Python or the
+//! packages can't be had they are skipped, and say so; with `CATSEYE_REQUIRE=all` that is a failure.
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
@@ -20,8 +20,8 @@ pub(crate) fn succeeds(command: &mut Command) -> bool {
     command.output().is_ok_and(|output| output.status.success())
 }
 
-/// The Python of the virtual environment for a folder with `requirements.txt`, made where it is missing or its
-/// packages have changed.
+/// The Python of the virtual environment for a folder with `requirements.txt`, made where it is missing or
+/// its packages have changed.
 pub(crate) fn interpreter(tests: &Path, name: &str) -> Option<PathBuf> {
     let requirements = tests.join("requirements.txt");
     let wanted = std::fs::read_to_string(&requirements).unwrap();
@@ -41,8 +41,8 @@ pub(crate) fn interpreter(tests: &Path, name: &str) -> Option<PathBuf> {
     })
 }
 
-/// The Python of the virtual environment; where there can be none says that `what` is skipped, and fails where
-/// everything is required.
+/// The Python of the virtual environment; where there can be none says that `what` is skipped, and fails
+/// where everything is required.
 pub(crate) fn required(tests: &Path, name: &str, what: &str) -> Option<PathBuf> {
     let python = interpreter(tests, name);
     if python.is_none() {

@@ -345,8 +345,8 @@ fn both_half_power_angles_of_retro_sheeting_surface_hold_at_every_entrance_angle
             let (e_y, e_x) = azimuth.sin_cos();
             let point = ShadingPoint { view: [-sin * e_x, -sin * e_y, -cosine], ..ShadingPoint::default() };
             let (params, axis, _) = below_the_coat(patterns.at(&point).bsdf);
-            // Light beside the viewer by an angle, in the frame that tipping the normal onto the view makes of
-            // tangent (y) and bitangent (-x). The disk offset is half of it, along the view's projection
+            // Light beside the viewer by an angle, in the frame that tipping the normal onto the view makes
+            // of tangent (y) and bitangent (-x). The disk offset is half of it, along the view's projection
             // half of it over the cosine (theory.md, section 10).
             for turn in (0..180).step_by(20).map(|degrees| (degrees as f32).to_radians()) {
                 let (x, y) = (-turn.sin(), turn.cos());

@@ -7,8 +7,8 @@ const SAME_DEG: f64 = 1e-6;
 
 /// The coefficients of retro-reflection of one class, read between the table's rows.
 ///
-/// The logarithm of `R_A` is linear in the observation angle between rows of one entrance angle, and linear in
-/// the entrance angle between such series. The entrance angle is the angle to the normal: the signs of the
+/// The logarithm of `R_A` is linear in the observation angle between rows of one entrance angle, and linear
+/// in the entrance angle between such series. The entrance angle is the angle to the normal: the signs of the
 /// tables' -4 and 5 degrees don't matter. Where a table has several values for the same two angles, of
 /// several rotations for instance, the lowest counts. Nothing is extrapolated: below the least angle, where
 /// sheeting is about flat, the value there is held and said to be so; beyond the greatest there is none.

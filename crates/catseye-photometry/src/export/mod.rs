@@ -1,7 +1,7 @@
 //! Materials in the forms that other programs read, and how far each is from its original.
 //!
-//! Radiance is given the lobes themselves, as functions. Engines have one back-vector lobe of constant inputs,
-//! which is fitted ([`SingleLobe`]).
+//! Radiance is given the lobes themselves, as functions. Engines have one back-vector lobe of constant
+//! inputs, which is fitted ([`SingleLobe`]).
 
 mod deviation;
 mod engines;

@@ -79,10 +79,10 @@ impl Coat {
 /// A material for Radiance: a `BRTDfunc` whose lobes are functions of a `.cal` file, and whose base is
 /// diffuse.
 ///
-/// Radiance turns a `BRTDfunc` towards whoever looks at it; a `mixfunc` makes its back black. The functions are
-/// the node's formula (docs/theory.md, sections 2, 3 and 10) and not a table, so that what
-/// `rtrace` finds is the lobe itself at any observation angle. They are evaluated for light sources:
-/// Radiance's indirect light sees the diffuse base only.
+/// Radiance turns a `BRTDfunc` towards whoever looks at it; a `mixfunc` makes its back black. The functions
+/// are the node's formula (docs/theory.md, sections 2, 3 and 10) and not a table, so that what `rtrace` finds
+/// is the lobe itself at any observation angle. They are evaluated for light sources: Radiance's indirect
+/// light sees the diffuse base only.
 #[derive(Clone, Copy, Debug)]
 pub struct Radiance<'a> {
     /// Name of the material; letters and digits remain, the rest becomes `_`.

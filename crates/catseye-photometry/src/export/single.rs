@@ -38,11 +38,11 @@ impl Colours {
 }
 
 impl SingleLobe {
-    /// The lobe that is nearest to the observations: in the least squares of logarithms, and then in the worst
-    /// of them.
+    /// The lobe that is nearest to the observations: in the least squares of logarithms, and then in the
+    /// worst of them.
     ///
-    /// A lobe narrower than `least_alpha` is not looked for. `base` is the luminance of the base's albedo, what
-    /// it returns is not part of the observations.
+    /// A lobe narrower than `least_alpha` is not looked for. `base` is the luminance of the base's albedo,
+    /// what it returns is not part of the observations.
     ///
     /// # Errors
     /// As [`fit`].
@@ -85,9 +85,9 @@ impl SingleLobe {
 /// The inputs of a dielectric in glTF with `KHR_materials_specular` and `KHR_materials_retroreflection`, and
 /// of three.js, whose names differ.
 ///
-/// Schlick's curve would make the lobe stronger towards grazing angles, where sheeting's becomes weaker. With a
-/// `specular_color` that raises the reflectance of the interface to 1 it is flat, and `specular` alone is the
-/// lobe's reflectance; a hue fades to white at grazing angles.
+/// Schlick's curve would make the lobe stronger towards grazing angles, where sheeting's becomes weaker. With
+/// a `specular_color` that raises the reflectance of the interface to 1 it is flat, and `specular` alone is
+/// the lobe's reflectance; a hue fades to white at grazing angles.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Dielectric {
     /// Colour of the base, linear Rec. 709.
@@ -98,8 +98,8 @@ pub struct Dielectric {
     pub specular: f64,
     /// Colour that multiplies the reflectance of the interface, linear Rec. 709, above 1.
     pub specular_color: [f64; 3],
-    /// Whether the base loses what is reflected channel by channel, as in three.js, or what is reflected in the
-    /// greatest channel, as in glTF.
+    /// Whether the base loses what is reflected channel by channel, as in three.js, or what is reflected in
+    /// the greatest channel, as in glTF.
     pub by_channel: bool,
 }
 

@@ -27,8 +27,8 @@ struct Smooth {
 /// Moves the problem to where the worst row's error is least, or at most `enough`.
 ///
 /// The maximum of some `a` is approached by t ln sum exp(a / t) with t towards 0, from above and by t
-/// ln(count) at most. Its curvature is that of the weights exp(a / t) as long as the rows are linear: a vertex
-/// of the linear problem, where as many rows are equally far off as there are numbers, is approached
+/// ln(count) at most. Its curvature is that of the weights exp(a / t) as long as the rows are linear: a
+/// vertex of the linear problem, where as many rows are equally far off as there are numbers, is approached
 /// quadratically.
 pub(crate) fn minimax(problem: &mut Problem<'_>, enough: f64) {
     let Some(mut here) = problem.linear() else { return };

@@ -176,8 +176,8 @@ pub fn fit(observations: &[Observation], options: &FitOptions) -> Result<Fit, Fi
 const LEAST_SHARE: f64 = 0.2;
 const WIDEST: f64 = 1.0;
 
-/// The greatest part that lobes which are some have of the model's values near the retro direction, but for one
-/// value where there are more: a lobe that only one of them sees is its noise.
+/// The greatest part that lobes which are some have of the model's values near the retro direction, but for
+/// one value where there are more: a lobe that only one of them sees is its noise.
 fn greatest_share(sheeting: &Sheeting, observations: &[Observation]) -> f64 {
     let lobes = sheeting.lobes.iter().filter(|lobe| lobe.roughness[0].min(lobe.roughness[1]) < WIDEST);
     let lobes = Sheeting { lobes: lobes.copied().collect(), diffuse: 0.0, ..sheeting.clone() };

@@ -108,8 +108,8 @@ impl Observation {
     }
 }
 
-/// How much the values count in a sum of squares: as the inverse of their uncertainty, the least uncertain one
-/// and what is given as 1. All alike where some have none. Beside it, whether all have one.
+/// How much the values count in a sum of squares: as the inverse of their uncertainty, the least uncertain
+/// one and what is given as 1. All alike where some have none. Beside it, whether all have one.
 pub(crate) fn weights(observations: &[Observation]) -> (Vec<f64>, bool) {
     let measured = || observations.iter().filter(|row| row.uncertainty != Some(0.0));
     let is_stated = measured().all(|row| row.uncertainty.is_some()) && measured().next().is_some();

@@ -9,8 +9,9 @@ use super::{Aim, FitOptions, Observation};
 
 /// Values that a fit has beyond its numbers where a value can be told to be unlike the others.
 const LEAST_SPARE: usize = 3;
-/// Times the scatter of the others that an outlier is off by (Iglewicz and Hoaglin 1993), and by how much more
-/// than the greatest of so many normal residuals, about sqrt(2 ln n): one table of noise in thirty names one.
+/// Times the scatter of the others that an outlier is off by (Iglewicz and Hoaglin 1993), and by how much
+/// more than the greatest of so many normal residuals, about sqrt(2 ln n): one table of noise in thirty names
+/// one.
 const OUTLYING: f64 = 3.5;
 const BEYOND_GREATEST: f64 = 0.5;
 /// From the median of absolute residuals to the standard deviation of normal ones.

@@ -57,8 +57,8 @@ fn generators(dimensions: usize) -> Vec<f64> {
 /// Where each number is looked for: widths around the observation angles, all else within its bounds.
 fn ranges(unknowns: &[Unknown], rows: &Rows<'_>) -> Vec<[f64; 2]> {
     let angles = rows.observations.iter().map(|row| row.centre().observation());
-    // The retro direction itself is no lobe's width, even where rounding makes it an angle, nor is the angle of
-    // a luminance factor.
+    // The retro direction itself is no lobe's width, even where rounding makes it an angle, nor is the angle
+    // of a luminance factor.
     let angles = angles.filter(|angle| (SAME_ANGLE..=RETRO_REACH).contains(angle));
     let (least, most) = angles.fold((f64::INFINITY, 0.0_f64), |(low, high), a| (low.min(a), high.max(a)));
     let widths = [least / BEYOND, most * BEYOND].map(f64::ln);
@@ -83,8 +83,8 @@ fn sort_widths(unknowns: &[Unknown], x: &mut [f64]) {
 /// Puts in the strengths that suit the other numbers best; returns how far off the rows are then.
 ///
 /// They minimise the sum of ratio - ln ratio, which is convex in the strengths and least where no ratio
-/// differs from 1. Each step multiplies a strength by the mean of 1 / ratio, weighted by its lobe's part in the rows; it
-/// stays positive, and the sum falls (Richardson and Lucy's algorithm).
+/// differs from 1. Each step multiplies a strength by the mean of 1 / ratio, weighted by its lobe's part in
+/// the rows; it stays positive, and the sum falls (Richardson and Lucy's algorithm).
 fn strengthen(form: Form, unknowns: &[Unknown], rows: &Rows<'_>, x: &mut [f64]) -> Option<f64> {
     let mut columns = rows.columns(&form.sheeting(unknowns, x))?;
     columns.truncate(form.lobes + usize::from(form.diffuse));

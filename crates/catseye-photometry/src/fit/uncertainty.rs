@@ -135,9 +135,9 @@ impl Deviation {
     }
 }
 
-/// How much wider than one standard deviation an interval has to be, that 68.27 % of them hold the truth where
-/// the deviation itself is from so many spare values: the quantile of Student's distribution, by its series
-/// around the normal one (Abramowitz and Stegun 26.7.5), 1.4 % too small for a single value.
+/// How much wider than one standard deviation an interval has to be, that 68.27 % of them hold the truth
+/// where the deviation itself is from so many spare values: the quantile of Student's distribution, by its
+/// series around the normal one (Abramowitz and Stegun 26.7.5), 1.4 % too small for a single value.
 fn student(spare: usize) -> f64 {
     let inverse = 1.0 / spare as f64;
     1.0 + inverse * (0.5 + inverse * (0.25 + inverse * 0.0625))

@@ -1,12 +1,12 @@
 //! EULUMDAT files (A. W. Stockmar, 1990).
 //!
 //! Written from the public descriptions of the format at helios32.com/Eulumdat.htm and in the R package
-//! `lighting`: one item a line. Of the 26 lines at the beginning these count: 3 symmetry `Isym`, 4 number of C
-//! planes `Mc`, 6 number of gamma angles `Ng`, 24 factor of the intensities, 25 tilt during the measurement,
-//! 26 number of sets of lamps. Six lines follow for each set, the third of them its flux in lm, then ten
-//! direct ratios, `Mc` C planes, `Ng` gamma angles, and the intensities in cd per 1000 lm, one run of gamma
-//! for each plane that the symmetry leaves: all for 0, the first for 1, C0 to C180 for 2, C270 over C0 to C90
-//! for 3, C0 to C90 for 4. Decimal commas are read.
+//! `lighting`: one item a line. Of the 26 lines at the beginning these count: 3 symmetry `Isym`, 4 number of
+//! C planes `Mc`, 6 number of gamma angles `Ng`, 24 factor of the intensities, 25 tilt during the
+//! measurement, 26 number of sets of lamps. Six lines follow for each set, the third of them its flux in lm,
+//! then ten direct ratios, `Mc` C planes, `Ng` gamma angles, and the intensities in cd per 1000 lm, one run
+//! of gamma for each plane that the symmetry leaves: all for 0, the first for 1, C0 to C180 for 2, C270 over
+//! C0 to C90 for 3, C0 to C90 for 4. Decimal commas are read.
 
 use super::Axis;
 use super::net::{Kind, Net, Symmetry};

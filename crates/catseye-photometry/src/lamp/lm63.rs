@@ -13,8 +13,8 @@
 //!    one.
 //!
 //! Types A and B whose horizontal angles begin at 0 are alike to the left. Type C is alike in all planes with
-//! one horizontal angle, in both halves where they end at 180, in the quarters where they end at 90; what ends a
-//! step before 360 is closed.
+//! one horizontal angle, in both halves where they end at 180, in the quarters where they end at 90; what
+//! ends a step before 360 is closed.
 
 use super::Axis;
 use super::net::{Kind, Net, Symmetry};

@@ -6,7 +6,8 @@ use super::within;
 use crate::table::csv_text;
 use crate::{Error, Geometry, Goniometer, Quantity, Table, significant};
 
-/// The largest observation angle that is computed, in degrees: beyond, the scatter that is not modelled rules.
+/// The largest observation angle that is computed, in degrees: beyond, the scatter that is not modelled
+/// rules.
 pub const MAX_OBSERVATION_DEG: f64 = 20.0;
 /// The largest entrance and viewing angle that is computed, in degrees.
 pub const MAX_ENTRANCE_DEG: f64 = 85.0;
@@ -18,7 +19,8 @@ const DIGITS: i32 = 6;
 pub struct Angles {
     /// Observation angles in degrees, above 0, at most [`MAX_OBSERVATION_DEG`].
     pub observation_deg: Vec<f64>,
-    /// Entrance angles `beta_1` in degrees, at most [`MAX_ENTRANCE_DEG`] either way, and the viewing angles, too.
+    /// Entrance angles `beta_1` in degrees, at most [`MAX_ENTRANCE_DEG`] either way, and the viewing angles,
+    /// too.
     pub entrance_deg: Vec<f64>,
     /// Rotation angles in degrees, -360 to 360; none for what looks the same from all sides.
     pub rotation_deg: Vec<f64>,
@@ -45,8 +47,8 @@ pub struct Computed {
 }
 
 impl Angles {
-    /// The table of a coefficient `r_a` in cd/lx/m2, computed in parallel. `source` and `wavelength_nm` (`None` for
-    /// white light) are said in every row.
+    /// The table of a coefficient `r_a` in cd/lx/m2, computed in parallel. `source` and `wavelength_nm`
+    /// (`None` for white light) are said in every row.
     ///
     /// # Errors
     /// An angle out of its range, no angle, or no value that an instrument would read.

@@ -89,8 +89,8 @@ impl Default for Beads {
 }
 
 impl Beads {
-    /// The spacing that focuses rays near the axis, m / (2 (m - 1)) for the relative index m: what an enclosed
-    /// layer is made for. Below 1, inside the bead, for m above 2.
+    /// The spacing that focuses rays near the axis, m / (2 (m - 1)) for the relative index m: what an
+    /// enclosed layer is made for. Below 1, inside the bead, for m above 2.
     #[must_use]
     pub fn focus(index: f64, medium: f64) -> f64 {
         let m = index / medium;
@@ -181,8 +181,8 @@ impl Beads {
         sizes
     }
 
-    /// Deviation from the retro direction as a sum of c asin(x / r) over pairs (c, r), where x is the distance
-    /// of the ray from the axis over the bead's radius.
+    /// Deviation from the retro direction as a sum of c asin(x / r) over pairs (c, r), where x is the
+    /// distance of the ray from the axis over the bead's radius.
     fn deviation(&self) -> Vec<(f64, f64)> {
         let m = self.index / self.medium();
         match self.mount {
@@ -224,7 +224,8 @@ impl fmt::Display for Beads {
     }
 }
 
-/// The exit pupil of a bead of one size in light of one wavelength: amplitudes over the distance from the axis.
+/// The exit pupil of a bead of one size in light of one wavelength: amplitudes over the distance from the
+/// axis.
 #[derive(Clone, Debug)]
 struct Pupil {
     /// Distance in waves, k R x, and the amplitude times x dx.
@@ -243,8 +244,8 @@ impl Pupil {
         let steepest = (0..=64).map(|i| f64::from(i) / 64.0).fold(0.0_f64, |most, x| {
             most.max(sum(x, &|x, r| (x / r).min(1.0).asin()).abs() * (1.0 - x * x).max(0.0).sqrt())
         });
-        // Two points to a wave where the rule below has its widest steps, 2.46 / count of a quarter circle, are
-        // 1.23 size (steepest + reach).
+        // Two points to a wave where the rule below has its widest steps, 2.46 / count of a quarter circle,
+        // are 1.23 size (steepest + reach).
         let count = (64.0 + 1.5 * size * (steepest + reach)).ceil();
         let node = |step: u32| {
             let u = (f64::from(step) + 0.5) / count;
@@ -287,8 +288,8 @@ pub struct PreparedBeads {
 }
 
 impl PreparedBeads {
-    /// `R_A` in cd/lx/m2; docs/optics.md, sections 1 to 4. Finite, and 0 where source or receiver are below the
-    /// surface. Made for observation angles up to 20 and entrance angles up to 85 degrees.
+    /// `R_A` in cd/lx/m2; docs/optics.md, sections 1 to 4. Finite, and 0 where source or receiver are below
+    /// the surface. Made for observation angles up to 20 and entrance angles up to 85 degrees.
     #[must_use]
     pub fn r_a(&self, geometry: &Geometry) -> f64 {
         if !geometry.is_above_horizon() {
@@ -412,8 +413,8 @@ mod tests {
 
     #[test]
     fn all_light_that_passes_the_bead_comes_back_somewhere() {
-        // Parseval's identity for the Hankel transform. Nothing goes beyond the greatest deviation, 60 degrees here,
-        // but diffraction.
+        // Parseval's identity for the Hankel transform. Nothing goes beyond the greatest deviation, 60
+        // degrees here, but diffraction.
         let pupil = Pupil::new(&exposed(2.0), 343.0, 1.5);
         let step = 1e-3;
         let ring = |i: u32| (f64::from(i) + 0.5) * step;
@@ -467,7 +468,8 @@ mod tests {
             let found = of_rays(&exposed(2.0), a) / law(a);
             assert!((found - ratio).abs() < 6e-4, "{degrees}: {found}");
         }
-        // A bead of 50 mm has the same: what diffraction is left is of the order of a wave over its phase, 1 / 90.
+        // A bead of 50 mm has the same: what diffraction is left is of the order of a wave over its phase, 1
+        // / 90.
         let a = 0.1_f64.to_radians();
         let pupil = Pupil::new(&exposed(2.0), 3e5, 0.01);
         assert!(
@@ -479,9 +481,10 @@ mod tests {
 
     #[test]
     fn the_pupil_is_close_to_the_exact_sphere() {
-        // The term of the Debye series (van de Hulst, "Light Scattering by Small Particles", section 12.2) that was
-        // reflected once, by a perfect mirror in place of Fresnel's coefficient: vector partial waves with scipy's
-        // spherical Bessel functions. 30 um radius, 550 nm; the pupil is scalar and its edge is sharp.
+        // The term of the Debye series (van de Hulst, "Light Scattering by Small Particles", section 12.2)
+        // that was reflected once, by a perfect mirror in place of Fresnel's coefficient: vector partial
+        // waves with scipy's spherical Bessel functions. 30 um radius, 550 nm; the pupil is scalar and its
+        // edge is sharp.
         for (m, values) in [
             (
                 1.9,

@@ -19,9 +19,9 @@ const SAMPLE: u32 = 360;
 /// Orders in which three faces are met: first, middle, last. The first three are cyclic.
 const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [2, 1, 0], [0, 2, 1], [1, 0, 2]];
 
-/// A sheet of equal corner cubes with triangular faces, their edges of one length, their axes along the sheet's
-/// normal. Start from [`Cubes::default`]: unmetallised polycarbonate, 150 um, in pairs and all azimuths, with
-/// random errors of 8 arc minutes.
+/// A sheet of equal corner cubes with triangular faces, their edges of one length, their axes along the
+/// sheet's normal. Start from [`Cubes::default`]: unmetallised polycarbonate, 150 um, in pairs and all
+/// azimuths, with random errors of 8 arc minutes.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Cubes {
     /// Refractive index, above 1, at most 3.
@@ -36,8 +36,8 @@ pub struct Cubes {
     pub coating: Coating,
     /// Whether every second cube is turned by half a circle, as they must be to fill a sheet.
     pub pairs: bool,
-    /// Azimuth of the first edge's projection on the sheet from the datum axis, counter-clockwise, in degrees, -360
-    /// to 360. `None` for cubes in all azimuths.
+    /// Azimuth of the first edge's projection on the sheet from the datum axis, counter-clockwise, in
+    /// degrees, -360 to 360. `None` for cubes in all azimuths.
     pub azimuth_deg: Option<f64>,
     /// Share of the area that works, above 0, at most 1: what seals, prints and cell walls leave.
     pub fill: f64,
@@ -98,8 +98,9 @@ impl Cubes {
         self.light.check()
     }
 
-    /// Cubes with equal shares, `most` of them or one: all azimuths where none is given, and errors of a normal distribution, from a
-    /// sequence that fills their space evenly (Roberts' generalised golden ratio in four dimensions).
+    /// Cubes with equal shares, `most` of them or one: all azimuths where none is given, and errors of a
+    /// normal distribution, from a sequence that fills their space evenly (Roberts' generalised golden ratio
+    /// in four dimensions).
     fn sample(&self, most: u32) -> Vec<Cube> {
         /// The root of x^5 = x + 1.
         const RATIO: f64 = 1.167_303_978_261_418_7;
@@ -126,7 +127,8 @@ impl Cubes {
     }
 }
 
-/// Three independent numbers of the standard normal distribution, from four of the uniform one (Box and Muller).
+/// Three independent numbers of the standard normal distribution, from four of the uniform one (Box and
+/// Muller).
 fn normal([a, b, c, d]: [f64; 4]) -> [f64; 3] {
     let radius = |u: f64| (-2.0 * (1.0 - u).ln()).sqrt();
     let (sin, cos) = (TAU * b).sin_cos();
@@ -169,8 +171,8 @@ pub struct PreparedCubes {
 }
 
 impl PreparedCubes {
-    /// `R_A` in cd/lx/m2: the mean over the cubes that stand for the sheet, each coherent in itself; docs/optics.md,
-    /// sections 5 to 8. Finite, and 0 where source or receiver are below the surface.
+    /// `R_A` in cd/lx/m2: the mean over the cubes that stand for the sheet, each coherent in itself;
+    /// docs/optics.md, sections 5 to 8. Finite, and 0 where source or receiver are below the surface.
     #[must_use]
     pub fn r_a(&self, geometry: &Geometry) -> f64 {
         if !geometry.is_above_horizon() {
@@ -184,8 +186,8 @@ impl PreparedCubes {
         let [wo, wi] = [geometry.wo, geometry.wi].map(|w| in_cube(w, cube.azimuth));
         let view = View::new(wi, self.cubes.index);
         let Some(paths) = view.paths(&self.cubes, cube) else { return 0.0 };
-        // The receiver's offset from the retro direction along the sheet, where no refraction changes it, as an
-        // offset across the beam inside.
+        // The receiver's offset from the retro direction along the sheet, where no refraction changes it, as
+        // an offset across the beam inside.
         let offset = wo - wi;
         let along = offset - axis() * offset.dot(&axis());
         let across = view.across(&(along - axis() * (along.dot(&view.source) / view.cos)));
@@ -309,7 +311,8 @@ impl View {
     }
 }
 
-/// Where light enters that leaves through the front again: the projected triangle and its image through the apex.
+/// Where light enters that leaves through the front again: the projected triangle and its image through the
+/// apex.
 fn active_area(edges: &[Vector2<f64>; 3]) -> Polygon {
     let mut area = edges.to_vec();
     for i in 0..3 {
@@ -319,8 +322,8 @@ fn active_area(edges: &[Vector2<f64>; 3]) -> Polygon {
     area
 }
 
-/// Where light enters that meets the face `first` first and `last` last: each is seen between the two edges that
-/// bound it, the last one from where the light leaves.
+/// Where light enters that meets the face `first` first and `last` last: each is seen between the two edges
+/// that bound it, the last one from where the light leaves.
 fn sub_aperture(active: &Polygon, edges: &[Vector2<f64>; 3], first: usize, last: usize) -> Polygon {
     let mut area = active.clone();
     for (face, sign) in [(first, 1.0), (last, -1.0)] {
@@ -355,8 +358,8 @@ mod tests {
         View::new(in_cube(Vec3::new(sin, 0.0, cos), -azimuth_deg.to_radians()), index)
     }
 
-    /// Source at an entrance angle and azimuth, receiver an observation angle away in a plane through the source
-    /// that is turned about it.
+    /// Source at an entrance angle and azimuth, receiver an observation angle away in a plane through the
+    /// source that is turned about it.
     fn geometry(observation_deg: f64, turn_deg: f64, entrance_deg: f64, azimuth_deg: f64) -> Geometry {
         let [a, t, b, f] = [observation_deg, turn_deg, entrance_deg, azimuth_deg].map(f64::to_radians);
         let wi = Vec3::new(b.sin() * f.cos(), b.sin() * f.sin(), b.cos());
@@ -451,8 +454,8 @@ mod tests {
 
     #[test]
     fn total_reflection_ends_where_a_face_is_too_steep() {
-        // For an azimuth f from an edge the inner angle t with cos t / sqrt 3 + sqrt(2/3) sin t cos f equal to
-        // sqrt(1 - 1/n^2); in degrees of the entrance angle.
+        // For an azimuth f from an edge the inner angle t with cos t / sqrt 3 + sqrt(2/3) sin t cos f equal
+        // to sqrt(1 - 1/n^2); in degrees of the entrance angle.
         let is_total = |index, beta, f| {
             let cubes = Cubes { index, coating: Coating::Air, ..MIRRORED };
             let view = view(beta, f, index);
@@ -518,8 +521,8 @@ mod tests {
 
     #[test]
     fn the_peak_of_an_imperfect_cube_is_where_the_spots_are() {
-        // 300 um and 40 minutes: the six beams are apart. 1.5 * 3.266 * 40' = 3.266 degrees, times 1.5 inside; by
-        // diffraction of its neighbours' tails each peak is within 1 %.
+        // 300 um and 40 minutes: the six beams are apart. 1.5 * 3.266 * 40' = 3.266 degrees, times 1.5
+        // inside; by diffraction of its neighbours' tails each peak is within 1 %.
         let wide = Cubes { leg_um: 300.0, errors_arcmin: [40.0; 3], ..MIRRORED }.prepare().unwrap();
         let value = |degrees: f64, turn: f64| wide.r_a(&geometry(degrees, turn, 0.0, 0.0));
         let predicted = 1.5 * 3.26599 * 40.0 / 60.0;
@@ -582,9 +585,9 @@ mod tests {
 
     #[test]
     fn a_trace_with_waves_agrees() {
-        // numpy, by another way: 490,000 rays through a cube that is built with its errors, each with its field and
-        // its optical path, summed at the receiver. What the sum's grain (0.5 %) and the errors' second order (4 %
-        // at 10 minutes) are worth.
+        // numpy, by another way: 490,000 rays through a cube that is built with its errors, each with its
+        // field and its optical path, summed at the receiver. What the sum's grain (0.5 %) and the errors'
+        // second order (4 % at 10 minutes) are worth.
         let cubes = Cubes { coating: Coating::Air, ..MIRRORED };
         let tilted = Cubes {
             index: 1.586,
@@ -617,8 +620,8 @@ mod tests {
 
     #[test]
     fn a_few_hundred_cubes_stand_for_the_sheet() {
-        // 5.1 % at 2 degrees is the most that was seen. As many cubes by chance have standard errors of 5 to 9 %
-        // (numpy), in light of one wavelength.
+        // 5.1 % at 2 degrees is the most that was seen. As many cubes by chance have standard errors of 5 to
+        // 9 % (numpy), in light of one wavelength.
         let cubes = Cubes { light: Light::Monochromatic(550.0), ..Cubes::default() };
         let prepared = cubes.prepare().unwrap();
         let many = PreparedCubes { sample: cubes.sample(10 * SAMPLE), ..prepared.clone() };
@@ -631,8 +634,8 @@ mod tests {
 
     #[test]
     fn what_comes_back_is_what_the_active_area_takes_in() {
-        // Beyond the angle t an aperture of area A and perimeter L diffracts the share lambda L / (2 pi^2 A t): here
-        // a regular hexagon, whose sides are a third of the triangle's.
+        // Beyond the angle t an aperture of area A and perimeter L diffracts the share lambda L / (2 pi^2 A
+        // t): here a regular hexagon, whose sides are a third of the triangle's.
         let (area, perimeter) = (150.0 * 150.0 / 3.0_f64.sqrt(), 2.0 * 150.0 * 2.0_f64.sqrt());
         let beyond = 0.55 * perimeter / (2.0 * PI * PI * area * 15.0_f64.to_radians());
         let expected = 2.0 / 3.0 * 0.96 * 0.96 * (1.0 - beyond);

@@ -4,8 +4,8 @@ use std::f64::consts::{FRAC_PI_2, PI};
 
 use super::fresnel::transmitted;
 
-/// The mean of K(y) K(y turned by alpha) over the bead's back, where K is the irradiance there over that before
-/// the bead, as a sum of Legendre polynomials (docs/optics.md, section 3).
+/// The mean of K(y) K(y turned by alpha) over the bead's back, where K is the irradiance there over that
+/// before the bead, as a sum of Legendre polynomials (docs/optics.md, section 3).
 #[derive(Clone, Debug)]
 pub(crate) struct DiffuseBack {
     /// Factors of the Legendre polynomials in `R_A` over the packing.

@@ -2,8 +2,8 @@
 
 use nalgebra::Complex;
 
-/// Powers that pass a surface between media of the relative index m (behind over before), s and p polarised; x
-/// is the sine of the angle of incidence, 0 to 1. From the dense side use [`reflected`].
+/// Powers that pass a surface between media of the relative index m (behind over before), s and p polarised;
+/// x is the sine of the angle of incidence, 0 to 1. From the dense side use [`reflected`].
 pub(crate) fn transmitted(x: f64, m: f64) -> [f64; 2] {
     let [before, behind] = [(1.0 - x * x).max(0.0).sqrt(), (1.0 - (x / m).powi(2)).max(0.0).sqrt()];
     let reflected =
@@ -11,8 +11,8 @@ pub(crate) fn transmitted(x: f64, m: f64) -> [f64; 2] {
     reflected.map(|r| 1.0 - r * r)
 }
 
-/// Amplitudes that glass of index n reflects into itself at its surface to air, s and p polarised; `cos` is the
-/// cosine of the angle of incidence, 0 to 1.
+/// Amplitudes that glass of index n reflects into itself at its surface to air, s and p polarised; `cos` is
+/// the cosine of the angle of incidence, 0 to 1.
 ///
 /// Time goes as exp(-i omega t), and the p vectors are s x k before and after. Beyond the critical angle the
 /// amplitudes have modulus 1, and their phases differ.

@@ -1,9 +1,9 @@
 //! Coefficients of retro-reflection from first principles: glass beads and corner cubes.
 //!
-//! Nobody publishes what sheeting does between the angles of its data sheet. [`Beads`] and [`Cubes`] compute it
-//! from glass, size and geometry, diffraction included, which rules below half a degree: a bead of 60 um spreads
-//! light over 0.5 degrees, a prism of 150 um over 0.2. docs/optics.md derives the formulas and says what is left
-//! out; the results are a synthetic truth for fits, not a prediction of a product.
+//! Nobody publishes what sheeting does between the angles of its data sheet. [`Beads`] and [`Cubes`] compute
+//! it from glass, size and geometry, diffraction included, which rules below half a degree: a bead of 60 um
+//! spreads light over 0.5 degrees, a prism of 150 um over 0.2. docs/optics.md derives the formulas and says
+//! what is left out; the results are a synthetic truth for fits, not a prediction of a product.
 //!
 //! ```
 //! use catseye_photometry::optics::{Beads, Mount};

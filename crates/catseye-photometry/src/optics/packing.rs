@@ -9,12 +9,12 @@ const LINES: u32 = 64;
 /// Rows of neighbours to either side that may stand before a bead.
 const ROWS: i32 = 6;
 
-/// The share of a bead's cross section that light enters and leaves by, at an entrance angle in radians, below
-/// pi/2.
+/// The share of a bead's cross section that light enters and leaves by, at an entrance angle in radians,
+/// below pi/2.
 ///
-/// A ray enters at b and leaves at -b (docs/optics.md, section 4): both must be on the half that is exposed, and no
-/// neighbour of a hexagonal lattice of the given packing, averaged over its azimuths, may stand before either. A
-/// lone bead has cos(angle).
+/// A ray enters at b and leaves at -b (docs/optics.md, section 4): both must be on the half that is exposed,
+/// and no neighbour of a hexagonal lattice of the given packing, averaged over its azimuths, may stand before
+/// either. A lone bead has cos(angle).
 pub(crate) fn visible_share(angle: f64, packing: f64) -> f64 {
     let distance = (2.0 * PI / (3.0_f64.sqrt() * packing)).sqrt();
     let (slant, upright) = angle.sin_cos();
@@ -43,8 +43,8 @@ fn neighbours(distance: f64, turn: f64) -> impl Iterator<Item = [f64; 2]> {
         })
 }
 
-/// What the shadows, disks of radius 1 and their images through the bead's centre, leave of the line from -half to
-/// half at `across`.
+/// What the shadows, disks of radius 1 and their images through the bead's centre, leave of the line from
+/// -half to half at `across`.
 fn free_length(shadows: &[[f64; 2]], across: f64, half: f64) -> f64 {
     let mut hidden: Vec<[f64; 2]> = Vec::new();
     for &[along, side] in shadows {

@@ -31,8 +31,8 @@ pub(crate) fn area(polygon: &Polygon) -> f64 {
     0.5 * edges(polygon).map(|(a, b)| a.perp(b)).sum::<f64>()
 }
 
-/// The integral of exp(i g.r) over a polygon, r its places: by Gauss' theorem a sum over the edges. g r must be
-/// below 1e8 or so.
+/// The integral of exp(i g.r) over a polygon, r its places: by Gauss' theorem a sum over the edges. g r must
+/// be below 1e8 or so.
 pub(crate) fn transform(polygon: &Polygon, g: &Vector2<f64>) -> Complex<f64> {
     let reach = polygon.iter().map(|corner| corner.norm()).fold(0.0, f64::max);
     let squared = g.norm_squared();
@@ -55,8 +55,8 @@ mod tests {
 
     #[test]
     fn the_transform_is_the_integral() {
-        // Against the midpoint rule over a fine grid of a square that a line has cut: pixels on the cut make its
-        // error, about a pixel's phase on a length of 1.4.
+        // Against the midpoint rule over a fine grid of a square that a line has cut: pixels on the cut make
+        // its error, about a pixel's phase on a length of 1.4.
         let square = [[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]].map(Vector2::from).to_vec();
         let side = |r: &Vector2<f64>| 1.3 - r.x - r.y;
         let polygon = clipped(&square, side);

@@ -250,7 +250,8 @@ fn tape() -> Sheeting {
 }
 
 /// Its file: light at 15, 30 and 60 degrees, rings of a degree around the retro direction, which is a sample
-/// itself up to rounding, and around the mirror direction, a grid of 5 degrees, and noise of 10 % in the mean.
+/// itself up to rounding, and around the mirror direction, a grid of 5 degrees, and noise of 10 % in the
+/// mean.
 fn text_of(tape: &Sheeting) -> String {
     let (prepared, mut state) = (tape.prepare().unwrap(), 1);
     let mut text = format!("{HEADER}#PARAM_OUT INV_STERADIAN\n");

@@ -4,42 +4,13 @@ use catseye_photometry::Geometry;
 use catseye_photometry::drive::{DriveError, Road, Scene, Sight, Sign, Vehicle};
 use catseye_photometry::lamp::Lamp;
 
-/// Computed once with numpy 2.4.6 from the definitions of CIE ILV and ASTM E808, by someone else than the author
-/// of the code: x ahead, y left, z up, lamps at y = +-half the spacing, a straight level road, 10 000 cd in every
-/// direction, and sheeting of R_A = 400 exp(-alpha / 0.425) exp(-beta^2 / 2220), in degrees.
+/// Computed once with numpy 2.4.6 from the definitions of CIE ILV and ASTM E808, by someone else than the
+/// author of the code: x ahead, y left, z up, lamps at y = +-half the spacing, a straight level road, 10 000
+/// cd in every direction, and sheeting of R_A = 400 exp(-alpha / 0.425) exp(-beta^2 / 2220), in degrees.
 ///
-/// Vehicle, sign, distance, lamp; H, V in degrees and the distance; alpha, beta, nu; epsilon, omega, gamma, `beta_1`,
-/// `beta_2`; E in lx, `R_A`, L in cd/m2.
-const VECTORS: &str = "\
-    car shoulder 50 L 6.91054 2.13768 50.40097 0.768422 7.232087 6.621179 37.5153 -107.2355 35.4651 5.90084 -4.18871 3.9366080 64.06209 253.880654
-    car shoulder 50 R 5.64251 2.14288 50.27860 1.009712 6.034486 6.621179 -52.7038 -110.8352 121.7260 -3.18180 -5.13013 3.9557932 36.57149 145.640641
-    car shoulder 100 L 3.46788 1.07506 100.20109 0.344233 3.630504 3.380277 31.3463 -107.2355 41.4753 2.72172 -2.40357 0.9959903 176.89705 176.494822
-    car shoulder 100 R 2.82811 1.07572 100.13959 0.546949 3.025634 3.380277 -57.4626 -110.8352 126.5891 -1.80458 -2.42897 0.9972140 109.99137 109.876095
-    car shoulder 150 L 2.31349 0.71748 150.13413 0.220665 2.422137 2.268327 28.8804 -107.2355 43.9096 1.74549 -1.67955 0.4436506 237.36740 105.390780
-    car shoulder 150 R 1.88626 0.71768 150.09310 0.374496 2.018131 2.268327 -58.9310 -110.8352 128.0786 -1.24498 -1.58848 0.4438933 165.41602 73.484636
-    car shoulder 200 L 1.73553 0.53832 200.10062 0.162234 1.817076 1.706691 27.5581 -107.2355 45.2208 1.28012 -1.28970 0.2497486 272.66688 68.128406
-    car shoulder 200 R 1.41492 0.53840 200.06983 0.284628 1.513872 1.706691 -59.6438 -110.8352 128.7989 -0.94871 -1.17978 0.2498255 204.53098 51.119733
-    car shoulder 300 L 1.15722 0.35898 300.06709 0.106006 1.211610 1.141373 26.1724 -107.2355 46.5985 0.83257 -0.88027 0.1110614 311.49299 34.601723
-    car shoulder 300 R 0.94339 0.35900 300.04656 0.192279 1.009379 1.141373 -60.3427 -110.8352 129.5031 -0.64213 -0.77881 0.1110766 254.31792 28.254384
-    car overhead 50 L 0.64169 6.70676 50.34767 0.807097 6.737248 5.952901 18.1602 -174.5597 -12.8054 6.57117 1.48997 3.9449475 58.67229 232.714016
-    car overhead 50 R -0.64169 6.70676 50.34767 1.277886 6.737248 5.952901 -52.9704 174.5597 47.7277 4.54330 -4.98006 3.9449475 19.37973 76.866533
-    car overhead 100 L 0.32085 3.36506 100.17429 0.356419 3.380309 3.037178 20.2723 -174.5597 -14.8566 3.26756 0.86625 0.9965233 172.03261 171.675654
-    car overhead 100 R -0.32085 3.36506 100.17429 0.615682 3.380309 3.037178 -57.0731 174.5597 51.6813 2.09741 -2.65151 0.9965233 93.47118 93.277232
-    car overhead 150 L 0.21390 2.24483 150.11625 0.226536 2.254992 2.037840 21.1372 -174.5597 -15.7084 2.17086 0.61037 0.4437564 234.19385 103.990781
-    car overhead 150 R -0.21390 2.24483 150.11625 0.405205 2.254992 2.037840 -58.5549 174.5597 53.1358 1.35326 -1.80396 0.4437564 153.81494 68.299553
-    car overhead 200 L 0.16043 1.68400 200.08720 0.165673 1.691626 1.533205 21.6076 -174.5597 -16.1739 1.62471 0.47115 0.2497821 270.52285 67.595978
-    car overhead 200 R -0.16043 1.68400 200.08720 0.301937 1.691626 1.533205 -59.3181 174.5597 53.8897 0.99714 -1.36657 0.2497821 196.31774 49.054228
-    car overhead 300 L 0.10695 1.12285 300.05814 0.107599 1.127933 1.025320 22.1062 -174.5597 -16.6689 1.08055 0.32352 0.1110681 310.35523 34.476073
-    car overhead 300 R -0.10695 1.12285 300.05814 0.199985 1.127933 1.025320 -60.0965 174.5597 54.6614 0.65246 -0.92009 0.1110681 249.71980 27.740334
-    suv shoulder 100 L 3.51926 0.95495 100.20285 0.413563 3.646362 3.352120 32.5501 -105.1920 42.3157 2.69794 -2.45388 0.9959553 150.26288 149.911602
-    suv shoulder 100 R 2.77667 0.95563 100.13147 0.626639 2.936393 3.352120 -56.1749 -109.0001 127.1386 -1.77382 -2.34045 0.9973758 91.20736 91.123925
-    suv overhead 100 L 0.37242 3.24513 100.16272 0.424199 3.266405 2.861540 22.7338 -173.4602 -16.2190 3.13667 0.91188 0.9967534 146.72252 146.428757
-    suv overhead 100 R -0.37242 3.24513 100.16272 0.699270 3.266405 2.861540 -55.9466 173.4602 49.4529 2.12473 -2.48148 0.9967534 76.80869 76.654904
-    truck shoulder 100 L 3.66194 0.86905 100.21612 0.815179 3.763508 3.405779 18.4419 -103.3602 58.2532 1.98229 -3.19978 0.9956916 58.38249 58.233807
-    truck shoulder 100 R 2.63375 0.86991 100.11728 1.092455 2.773598 3.405779 -44.9158 -108.2854 116.6035 -1.24283 -2.47975 0.9976585 30.49363 30.476055
-    truck overhead 100 L 0.51565 3.15939 100.15628 0.837077 3.201154 2.368293 14.1982 -170.7398 -4.9457 3.18926 0.27583 0.9968817 55.54851 55.422631
-    truck overhead 100 R -0.51565 3.15939 100.15628 1.156857 3.201154 2.368293 -45.4226 170.7398 36.2051 2.58397 -1.89021 0.9968817 26.17571 26.116395
-";
+/// Vehicle, sign, distance, lamp; H, V in degrees and the distance; alpha, beta, nu; epsilon, omega, gamma,
+/// `beta_1`, `beta_2`; E in lx, `R_A`, L in cd/m2.
+const VECTORS: &str = include_str!("drive_vectors.txt");
 
 /// The vehicles of the vectors.
 fn vehicle(name: &str) -> Vehicle {
@@ -127,9 +98,10 @@ fn luminance_is_the_sum_of_both_lamps() {
     }
 }
 
-/// Avery Dennison, "Learn sheeting", chapter 8: a sign 6 m above the road, a sedan's left lamp. 500 m: observation
-/// 0.06, entrance 0.6, rotation 22 degrees; 170 m: observation 0.2; 70 to 80 m: entrance 4, observation 0.5,
-/// rotation 19. Their car's sizes are not given, so the digits that they print are what can be compared.
+/// Avery Dennison, "Learn sheeting", chapter 8: a sign 6 m above the road, a sedan's left lamp. 500 m:
+/// observation 0.06, entrance 0.6, rotation 22 degrees; 170 m: observation 0.2; 70 to 80 m: entrance 4,
+/// observation 0.5, rotation 19. Their car's sizes are not given, so the digits that they print are what can
+/// be compared.
 #[test]
 fn the_published_walk_through_is_found() {
     let sign = Sign { height_m: 6.0, ..Sign::OVERHEAD };
@@ -193,8 +165,8 @@ fn a_crest_hides_what_is_behind_it() {
     assert!(!dip.view(of_eye + 3.0).unwrap().is_hidden);
 }
 
-/// Turning the sign is turning the world the other way: the normal and the datum axis stay orthonormal, and the
-/// entrance angle is that to the tilted normal.
+/// Turning the sign is turning the world the other way: the normal and the datum axis stay orthonormal, and
+/// the entrance angle is that to the tilted normal.
 #[test]
 fn tilt_yaw_and_turn_move_the_axes() {
     let sign = Sign { tilt_deg: 10.0, yaw_deg: 20.0, turn_deg: 30.0, right_m: 0.0, height_m: 0.62 };

@@ -23,8 +23,8 @@ fn enclosed(part: f64) -> Beads {
 
 #[test]
 fn beads_in_white_light_have_their_known_coefficients() {
-    // numpy with 7 wavelengths, sizes within 10 % and the paraxial phase: other samples of both, so that the height
-    // is met within 4 % and what the fringes fill up within 15 %.
+    // numpy with 7 wavelengths, sizes within 10 % and the paraxial phase: other samples of both, so that the
+    // height is met within 4 % and what the fringes fill up within 15 %.
     for (beads, values) in [
         (Beads { index: 1.9, ..Beads::default() }, [513.0, 486.0, 408.0, 268.0, 84.0]),
         (Beads::default(), [634.0, 612.0, 544.0, 413.0, 11.0]),
@@ -57,8 +57,8 @@ fn larger_beads_are_brighter_near_the_axis() {
 
 #[test]
 fn beads_on_white_paint_have_their_known_coefficients() {
-    // The geometric integral in numpy; 6 million rays agree with it within 1 % for n = 1.5. Beads of 1 mm, which
-    // diffraction does not change there.
+    // The geometric integral in numpy; 6 million rays agree with it within 1 % for n = 1.5. Beads of 1 mm,
+    // which diffraction does not change there.
     let paint =
         |index, diameter_um| bead(Beads { index, diameter_um, back: Back::Diffuse(0.8), ..Beads::default() });
     let large = paint(1.5, 1000.0);

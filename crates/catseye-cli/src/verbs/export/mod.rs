@@ -28,12 +28,13 @@ use crate::{help, report};
 /// The least roughness that three.js renders with; a smaller one is raised to it.
 const THREE_LEAST_ROUGHNESS: f64 = 0.045;
 
-/// Write a material, or what is fitted to a table, in the form that another program reads, and how far it is off
+/// Write a material, or what is fitted to a table, in the form that another program reads, and how far it is
+/// off
 ///
-/// Each target is told how far its coefficients of retro-reflection are from the original's: the worst error and
-/// the root mean square, over the table's values where there are some, and over a grid of observation and
-/// entrance angles. The file says it in a comment where it can have one. The MaterialX data library, which shading
-/// languages need, comes from `catseye materialx export`.
+/// Each target is told how far its coefficients of retro-reflection are from the original's: the worst error
+/// and the root mean square, over the table's values where there are some, and over a grid of observation and
+/// entrance angles. The file says it in a comment where it can have one. The MaterialX data library, which
+/// shading languages need, comes from `catseye materialx export`.
 #[derive(Debug, clap::Args)]
 #[command(after_help = help::EXPORT)]
 pub(crate) struct Args {
@@ -57,8 +58,8 @@ pub(crate) struct Args {
     /// Luminance factor Y by day (45/0) of a table's material, for the diffuse base
     #[arg(long, value_name = "Y")]
     luminance_factor: Option<f64>,
-    /// Observation angles in degrees that csv has, and that lobes are fitted to and compared at [default: those
-    /// of the standards for sheeting, stretched for lobes that are wider]
+    /// Observation angles in degrees that csv has, and that lobes are fitted to and compared at [default:
+    /// those of the standards for sheeting, stretched for lobes that are wider]
     #[arg(long, value_name = "DEG,...", value_delimiter = ',')]
     observations: Vec<f64>,
     /// The same for entrance angles, in degrees [default: those of the standards for sheeting]

@@ -21,11 +21,12 @@ use crate::instrument::goniometer::Photometer;
 use crate::instrument::table::{ENTRANCES_DEG, OBSERVATIONS_DEG, grid};
 use crate::verbs::fit::subject::Subject;
 
-/// Observation and entrance angle in degrees of the luminance factor by day, 45/0, and the least of it that is a
-/// base.
+/// Observation and entrance angle in degrees of the luminance factor by day, 45/0, and the least of it that
+/// is a base.
 const DAY_DEG: f64 = 45.0;
 const BLACK: f64 = 1e-4;
-/// How far the logarithms of two values may differ that are the same: more than single precision makes of them.
+/// How far the logarithms of two values may differ that are the same: more than single precision makes of
+/// them.
 const SAME: f64 = 0.01;
 /// Entrance angle in degrees at which the width of the material's curve is looked up.
 const WIDTH_ENTRANCE_DEG: f64 = 5.0;
@@ -166,8 +167,8 @@ impl Original {
         Ok(Table::from_rows(geometries.name(), geometries.header(), rows))
     }
 
-    /// What lobes are fitted to: the table, or the rows of the material's lobe, less what the base returns, so
-    /// that a lobe that can't meet them does not bend the base.
+    /// What lobes are fitted to: the table, or the rows of the material's lobe, less what the base returns,
+    /// so that a lobe that can't meet them does not bend the base.
     pub(super) fn aims(&self, lobe_rows: &[Row]) -> anyhow::Result<Aims> {
         let geometry =
             |observation, entrance| Geometry::from(Goniometer::from_degrees(observation, entrance, 0.0, 0.0));

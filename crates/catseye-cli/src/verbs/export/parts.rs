@@ -62,8 +62,8 @@ pub(super) fn is_retro(material: &Material) -> bool {
     leaves.iter().any(|leaf| matches!(leaf, Leaf::Retro { .. } | Leaf::BackVector))
 }
 
-/// Refuses what is neither a retro-reflective lobe nor diffuse: glass, fibres, holes, a glow, a texture, and a clear
-/// coat over all of it unless there is room for one.
+/// Refuses what is neither a retro-reflective lobe nor diffuse: glass, fibres, holes, a glow, a texture, and
+/// a clear coat over all of it unless there is room for one.
 pub(super) fn refuse_others(name: &str, material: &Material, has_coat: bool) -> anyhow::Result<()> {
     let surface = &material.surface;
     let below = if has_coat { below_coat(&surface.bsdf).1 } else { &surface.bsdf };

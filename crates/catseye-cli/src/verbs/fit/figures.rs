@@ -163,8 +163,8 @@ pub(crate) fn residuals(outcome: &Outcome<'_>) -> Drawing<Residuals> {
     Drawing { figure: Residuals { rows, tolerance }, caption }
 }
 
-/// A measured BRDF in the plane of incidence, within an angle from the lamp, a curve for each direction of the
-/// light; `None` of a table, and of a file without samples there.
+/// A measured BRDF in the plane of incidence, within an angle from the lamp, a curve for each direction of
+/// the light; `None` of a table, and of a file without samples there.
 pub(crate) fn brdf(
     outcome: &Outcome<'_>,
     rule: &ApertureRule,

@@ -249,7 +249,9 @@ fn numbers(outcome: &Outcome<'_>) -> Markup {
             thead { tr { th { "number" } th { "value" } th { "one standard deviation" } th.text {} } }
             @for estimate in &outcome.fit.estimates {
                 tr {
-                    td { (estimate.meaning.name()) } td { (short(estimate.value)) } td { (interval(estimate, 4)) }
+                    td { (estimate.meaning.name()) }
+                    td { (short(estimate.value)) }
+                    td { (interval(estimate, 4)) }
                     td.text {
                         @match (estimate.determined, estimate.at_bound) {
                             (false, _) => "left open by the values",

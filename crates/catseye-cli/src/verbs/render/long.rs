@@ -24,8 +24,8 @@ const PASS: Duration = Duration::from_secs(4);
 /// The options of renders that take long.
 #[derive(Debug, clap::Args)]
 pub(super) struct LongArgs {
-    /// Only the samples from A up to but not including B of each pixel, multiples of 4: a part of the picture,
-    /// written as an EXR for `catseye merge`
+    /// Only the samples from A up to but not including B of each pixel, multiples of 4: a part of the
+    /// picture, written as an EXR for `catseye merge`
     #[arg(long, value_name = "A..B", conflicts_with = "spp")]
     samples: Option<Samples>,
     /// Only the pixels from column X0 and row Y0 up to but not including X1 and Y1: a part of the picture
