@@ -6,7 +6,7 @@ use rayon::prelude::*;
 
 use super::form::{Form, Meaning, Unknown};
 use super::minimax::minimax;
-use super::observation::{Aim, Observation, weights};
+use super::observation::{Aim, Observation, RETRO_REACH, weights};
 use super::problem::{PRIOR_WEIGHT, Problem, aim_weight};
 use super::starts::starts;
 use crate::sheeting::Sheeting;
@@ -15,6 +15,9 @@ use crate::sheeting::Sheeting;
 const STARTS: usize = 12;
 /// The same for measurements, whose many rows leave little choice.
 const STARTS_OF_MANY: usize = 4;
+/// Rows that a search looks at: of more, so many all over the table find the place that all of them descend
+/// from.
+const SEARCHED_ROWS: usize = 200;
 /// Relative accuracy of the sum of squares and of the numbers.
 const ACCURACY: f64 = 1e-9;
 /// Evaluations in multiples of the free numbers plus one.
@@ -81,9 +84,11 @@ pub(crate) fn solve<'a>(
         let apart = nested.iter().map(|x| apart(&problem.unknowns, x));
         best_of(problem, &apart.chain(starts(problem, count)).collect::<Vec<_>>())
     };
-    // Apertures change the solution a little and take many times as long: what points say is the start.
-    let found = if observations.iter().any(|row| row.views.len() > 1) {
-        let points: Vec<Observation> = observations.iter().map(Observation::at_centre).collect();
+    // Apertures and thousands of rows change the solution a little and take many times as long: what points
+    // of some rows say is the start.
+    let has_apertures = observations.iter().any(|row| row.views.len() > 1);
+    let found = if has_apertures || observations.len() > SEARCHED_ROWS {
+        let points: Vec<Observation> = some_of(observations).map(Observation::at_centre).collect();
         let start = search(&Problem::new(form, &points, channel_peak, &priors))?;
         best_of(&problem, &[start.x])
     } else {
@@ -91,6 +96,17 @@ pub(crate) fn solve<'a>(
     };
     let nested = nested.iter().filter_map(|x| solution(&problem, x.clone()));
     nested.chain(found).reduce(better)
+}
+
+/// All rows, or of many of them about [`SEARCHED_ROWS`] and those that the base is seen in.
+fn some_of(observations: &[Observation]) -> impl Iterator<Item = &Observation> {
+    /// The golden ratio's inverse, whose multiples keep clear of any period in the rows' order.
+    const GOLDEN: f64 = 0.618_033_988_749_894_9;
+    let share = SEARCHED_ROWS as f64 / observations.len() as f64;
+    let chosen = move |(i, row): (usize, &Observation)| {
+        (i as f64 * GOLDEN).fract() < share || row.centre().observation() > RETRO_REACH
+    };
+    observations.iter().enumerate().filter(move |pair| chosen(*pair)).map(|(_, row)| row)
 }
 
 /// Lobes of the same roughness, which a simpler form's solution leaves, drawn apart: from each other nothing
