@@ -7,7 +7,7 @@ use crate::Error;
 use crate::gauss::gauss;
 
 /// The photopic luminous efficiency V (CIE 1924, ISO 23539), from 380 nm in steps of 10 nm. Compared with the
-/// table of PyPI `colour-science` 0.4: equal within 2e-7.
+/// table of the Python package `colour-science` 0.4: equal within 2e-7.
 const EFFICIENCY: [f64; 41] = [
     0.000039, 0.00012, 0.000396, 0.00121, 0.004, 0.0116, 0.023, 0.038, 0.06, 0.09098, 0.13902, 0.20802,
     0.323, 0.503, 0.71, 0.862, 0.954, 0.99495, 0.995, 0.952, 0.87, 0.757, 0.631, 0.503, 0.381, 0.265, 0.175,
