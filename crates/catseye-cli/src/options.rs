@@ -118,12 +118,9 @@ impl LibraryArgs {
     }
 }
 
-/// The material that a verb is about.
+/// How the material of a document is read.
 #[derive(Debug, clap::Args)]
-pub(crate) struct MaterialArgs {
-    /// MaterialX document with the material
-    #[arg(value_name = "MATERIAL.mtlx")]
-    document: PathBuf,
+pub(crate) struct ReadingArgs {
     /// Name of the surface material, where the document has several
     #[arg(long, value_name = "NAME")]
     material: Option<String>,
@@ -134,15 +131,37 @@ pub(crate) struct MaterialArgs {
     model: ModelArg,
 }
 
-impl MaterialArgs {
-    /// Reads the material.
-    pub(crate) fn load(&self) -> anyhow::Result<Material> {
-        self.library.material(&self.document, self.material.as_deref())
+impl ReadingArgs {
+    /// Reads the material of a document.
+    pub(crate) fn material(&self, document: &Path) -> anyhow::Result<Material> {
+        self.library.material(document, self.material.as_deref())
     }
 
     /// The lobe that reflects.
     pub(crate) fn model(&self) -> Model {
         self.model.0
+    }
+}
+
+/// The material that a verb is about.
+#[derive(Debug, clap::Args)]
+pub(crate) struct MaterialArgs {
+    /// MaterialX document with the material
+    #[arg(value_name = "MATERIAL.mtlx")]
+    document: PathBuf,
+    #[command(flatten)]
+    reading: ReadingArgs,
+}
+
+impl MaterialArgs {
+    /// Reads the material.
+    pub(crate) fn load(&self) -> anyhow::Result<Material> {
+        self.reading.material(&self.document)
+    }
+
+    /// The lobe that reflects.
+    pub(crate) fn model(&self) -> Model {
+        self.reading.model()
     }
 
     /// The document as the user named it.

@@ -10,7 +10,7 @@ use catseye_photometry::{Geometry, Goniometer, Quantity, significant};
 
 use super::goniometer::Photometer;
 use super::{Channel, table};
-use crate::options::{LibraryArgs, ModelArg};
+use crate::options::ReadingArgs;
 use crate::report;
 
 /// `R_A` close to the lamp is so many times that far from it, where there is a retro-reflective lobe: matte
@@ -21,17 +21,11 @@ const NEAR_DEG: f64 = 0.2;
 const FAR_DEG: f64 = 20.0;
 const ENTRANCE_DEG: f64 = 5.0;
 
-/// How materials are read.
+/// How subjects are read.
 #[derive(Debug, clap::Args)]
-pub(crate) struct ReadingArgs {
-    /// Name of the surface material, where a document has several
-    #[arg(long, value_name = "NAME")]
-    material: Option<String>,
+pub(crate) struct SubjectArgs {
     #[command(flatten)]
-    library: LibraryArgs,
-    /// Which lobe reflects
-    #[arg(long, value_enum, default_value_t)]
-    model: ModelArg,
+    reading: ReadingArgs,
     /// What is made of the three colour channels
     #[arg(long, value_enum, default_value_t)]
     pub(crate) channel: Channel,
@@ -50,7 +44,7 @@ enum Kind {
     Table(CoefficientTable),
 }
 
-impl ReadingArgs {
+impl SubjectArgs {
     /// Reads a document, a table or a class by its name.
     pub(crate) fn subject(&self, name: &str) -> anyhow::Result<Subject> {
         let is_document =
@@ -62,11 +56,11 @@ impl ReadingArgs {
                 kind: Kind::Table(CoefficientTable::new(class.table())?),
             });
         }
-        let material = self.library.material(Path::new(name), self.material.as_deref())?;
-        let photometer = Photometer::new(&material, self.model.0, self.channel, None)?;
+        let material = self.reading.material(Path::new(name))?;
+        let photometer = Photometer::new(&material, self.reading.model(), self.channel, None)?;
         let subject = Subject {
             name: name.to_owned(),
-            kind: Kind::Material(Box::new(material), self.model.0, photometer),
+            kind: Kind::Material(Box::new(material), self.reading.model(), photometer),
         };
         subject.warn_without_lobe()?;
         Ok(subject)

@@ -8,7 +8,7 @@ use clap::ArgGroup;
 use serde_json::{Map, Value, json};
 
 use crate::failure::Usage;
-use crate::instrument::subject::{ReadingArgs, Subject};
+use crate::instrument::subject::{Subject, SubjectArgs};
 use crate::options::Tint;
 use crate::output::Output;
 use crate::{help, report};
@@ -29,7 +29,7 @@ pub(crate) struct Args {
     #[arg(value_name = "MATERIAL.mtlx|TABLE.csv|STANDARD")]
     subject: String,
     #[command(flatten)]
-    reading: ReadingArgs,
+    reading: SubjectArgs,
     /// Angle between the emitter and the receiver, seen from the surface; 0 where they share a lens
     #[arg(long, value_name = "DEG", group = "offset")]
     observation_deg: Option<f64>,

@@ -14,7 +14,7 @@ use self::listing::{Row, Seen};
 use self::setting::SettingArgs;
 use crate::failure::Usage;
 use crate::instrument::headlamps;
-use crate::instrument::subject::{ReadingArgs, Subject};
+use crate::instrument::subject::{Subject, SubjectArgs};
 use crate::output::Output;
 use crate::plot::drive::{DriveFigure, Point, Request};
 use crate::plot::figure::FigureArgs;
@@ -43,7 +43,7 @@ pub(crate) struct Args {
     #[command(flatten)]
     setting: SettingArgs,
     #[command(flatten)]
-    reading: ReadingArgs,
+    reading: SubjectArgs,
     /// Luminance in cd/m2 that the sign should have
     #[arg(long, value_name = "CD/M2")]
     required: Option<f64>,
