@@ -196,12 +196,18 @@ impl Args {
         Ok(LobeRows::of(original.grid(&self.observations, &self.entrances)?.rows()))
     }
 
-    /// A target with one back-vector lobe of constant inputs.
-    fn single_lobe(&self) -> anyhow::Result<()> {
+    /// The file to write, the original, and its `R_A` where lobes are fitted to it.
+    fn open(&self) -> anyhow::Result<(Output, Original, LobeRows)> {
         must_end_in(&self.output, self.target.ending())?;
         let output = Output::new(&self.output)?;
         let original = Original::load(self)?;
         let grid = self.grid(&original)?;
+        Ok((output, original, grid))
+    }
+
+    /// A target with one back-vector lobe of constant inputs.
+    fn single_lobe(&self) -> anyhow::Result<()> {
+        let (output, original, grid) = self.open()?;
         let Aims { observations, colours, base } = original.aims(&grid.lobe)?;
         let least_alpha = if self.target == Target::Three { THREE_LEAST_ROUGHNESS.powi(2) } else { 0.0 };
         let lobe = SingleLobe::fit(&observations, &colours, base, least_alpha)
@@ -242,10 +248,7 @@ impl Args {
 
     /// The sheeting of back-vector lobes with entrance laws, as a graph of MaterialX's own nodes.
     fn back_vector(&self) -> anyhow::Result<()> {
-        must_end_in(&self.output, self.target.ending())?;
-        let output = Output::new(&self.output)?;
-        let original = Original::load(self)?;
-        let grid = self.grid(&original)?;
+        let (output, original, grid) = self.open()?;
         let Aims { observations, colours, base } = original.aims(&grid.lobe)?;
         let options = FitOptions {
             model: Model::BackVector,
