@@ -165,7 +165,7 @@ impl Part {
         };
         Ok(Self {
             film: Film { key, region, samples, sums: read_sums(file)? },
-            oversampling: lines.number::<usize>("oversampling")?.clamp(1, 2),
+            oversampling: lines.number("oversampling")?,
             tone_map: ToneMap {
                 exposure_ev: lines.number("exposure_ev")?,
                 white: lines.number("white")?,

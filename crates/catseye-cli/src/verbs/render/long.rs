@@ -81,14 +81,14 @@ impl LongArgs {
         self.checkpoint.as_deref().or(self.resume.as_deref())
     }
 
-    /// The samples of the picture, or of the part of it, of a scene.
-    pub(super) fn film(
+    /// The picture of a scene, or the part of it that is asked for.
+    pub(super) fn render(
         &self,
         scene: &Scene,
         settings: &RenderSettings,
         tone_map: ToneMap,
         progress: &Progress,
-    ) -> anyhow::Result<Film> {
+    ) -> anyhow::Result<Part> {
         let samples = self.samples.unwrap_or(Samples { start: 0, end: settings.spp });
         let region = self.region.map(|region| Region {
             start: region.start.map(|at| at * OVERSAMPLING),
@@ -104,8 +104,10 @@ impl LongArgs {
         })?;
         let _lock = self.checkpoint().map(Lock::new).transpose()?;
         let film = self.begun(film, samples)?;
-        let checkpoint = self.checkpoint().map(|path| Checkpoint::new(path, scene, tone_map)).transpose()?;
-        self.go_on(scene, settings, film, samples.end, checkpoint, progress)
+        let checkpoint = self.checkpoint().map(Checkpoint::new).transpose()?;
+        let info = PictureInfo { command: command(), ..scene.info().clone() };
+        let part = Part { film, oversampling: OVERSAMPLING, tone_map, info };
+        self.go_on(scene, settings, part, samples.end, checkpoint, progress)
     }
 
     /// The film that is gone on with.
@@ -139,19 +141,19 @@ impl LongArgs {
         &self,
         scene: &Scene,
         settings: &RenderSettings,
-        mut film: Film,
+        mut part: Part,
         end: u32,
         mut checkpoint: Option<Checkpoint>,
         progress: &Progress,
-    ) -> anyhow::Result<Film> {
+    ) -> anyhow::Result<Part> {
         let started = Instant::now();
-        let first = film.samples().end;
+        let first = part.film.samples().end;
         let mut each = Duration::ZERO;
         if checkpoint.is_some() {
             interrupt::stop_gently();
         }
         loop {
-            let done = film.samples().end;
+            let done = part.film.samples().end;
             let left = match self.time {
                 // The first pass shows how long one takes.
                 Some(_) if done == first => 1,
@@ -159,7 +161,7 @@ impl LongArgs {
                 None => end - done,
             };
             if left == 0 {
-                return Ok(film);
+                return Ok(part);
             }
             let count = if done == first { 1 } else { left.min(passes(PASS, each).max(1)) };
             let begun = Instant::now();
@@ -167,18 +169,18 @@ impl LongArgs {
                 Some(time) => started.elapsed().as_secs_f32() / time.as_secs_f32(),
                 None => (done as f32 - first as f32 + of_pass * count as f32) / (end - first) as f32,
             };
-            let whole = expose(scene, settings, &mut film, count, interrupt::stop(), &|of_pass| {
+            let whole = expose(scene, settings, &mut part.film, count, interrupt::stop(), &|of_pass| {
                 progress.share(share(of_pass));
             })?;
             if !whole {
                 let Some(checkpoint) = &mut checkpoint else { bail!(Interrupted(String::new())) };
-                checkpoint.write(&film)?;
-                bail!(Interrupted(checkpoint.hint(&film)));
+                checkpoint.write(&part)?;
+                bail!(Interrupted(checkpoint.hint(&part.film)));
             }
             each = begun.elapsed() / count;
             if let Some(checkpoint) = &mut checkpoint
                 && checkpoint.written.elapsed() >= self.checkpoint_every
-                && let Err(error) = checkpoint.write(&film)
+                && let Err(error) = checkpoint.write(&part)
             {
                 // What was written before is still there, and the picture may yet be finished.
                 report::warn(format!("{error:#}; the render goes on"));
@@ -203,27 +205,19 @@ pub(crate) fn read_part(path: &Path) -> anyhow::Result<Part> {
     Ok(part)
 }
 
-/// A part as a file.
-pub(super) fn encode_part(film: Film, scene: &Scene, tone_map: ToneMap) -> anyhow::Result<Vec<u8>> {
-    let info = PictureInfo { command: command(), ..scene.info().clone() };
-    Ok(Part { film, oversampling: OVERSAMPLING, tone_map, info }.encode()?)
-}
-
 /// The file that samples are kept in.
-struct Checkpoint<'a> {
+struct Checkpoint {
     output: Output,
-    scene: &'a Scene,
-    tone_map: ToneMap,
     written: Instant,
 }
 
-impl<'a> Checkpoint<'a> {
-    fn new(path: &Path, scene: &'a Scene, tone_map: ToneMap) -> anyhow::Result<Self> {
-        Ok(Self { output: Output::new(path)?, scene, tone_map, written: Instant::now() })
+impl Checkpoint {
+    fn new(path: &Path) -> anyhow::Result<Self> {
+        Ok(Self { output: Output::new(path)?, written: Instant::now() })
     }
 
-    fn write(&mut self, film: &Film) -> anyhow::Result<()> {
-        self.output.write(&encode_part(film.clone(), self.scene, self.tone_map)?)?;
+    fn write(&mut self, part: &Part) -> anyhow::Result<()> {
+        self.output.write(&part.encode()?)?;
         self.written = Instant::now();
         Ok(())
     }

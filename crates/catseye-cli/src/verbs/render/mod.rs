@@ -148,7 +148,7 @@ impl Args {
         let scene = self.scene(subject, lamp_deg)?;
         let progress = Progress::shares("rendering", self.progress);
         let (image, spp) = if self.long.is_asked_for() {
-            let film = self.long.film(&scene, settings, *scene.tone_map(), &progress)?;
+            let film = self.long.render(&scene, settings, *scene.tone_map(), &progress)?.film;
             (film.image(), film.samples().end)
         } else {
             (render(&scene, settings, &|share| progress.share(share))?, settings.spp)
@@ -172,10 +172,10 @@ impl Args {
         let scene = self.scene(subject, self.lamp_deg.first().copied())?;
         let progress = Progress::shares("rendering", self.progress);
         let tone_map = self.exposure.tone_map(*scene.tone_map(), &Image::new(0, 0));
-        let film = self.long.film(&scene, settings, tone_map, &progress)?;
+        let part = self.long.render(&scene, settings, tone_map, &progress)?;
         drop(progress);
-        let (samples, region) = (film.samples(), film.region());
-        output.write(&long::encode_part(film, &scene, tone_map)?)?;
+        output.write(&part.encode()?)?;
+        let (samples, region) = (part.film.samples(), part.film.region());
         let [start, end] = [samples.start, samples.end].map(|n| n * QUARTERS);
         let [[x0, y0], [x1, y1]] = [region.start, region.end].map(|at| at.map(|n| n / OVERSAMPLING));
         let (name, seconds) = (output.name(), started.elapsed().as_secs_f64());
