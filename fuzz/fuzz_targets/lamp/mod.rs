@@ -1,4 +1,5 @@
-//! What the readers of lamps' files promise of any bytes: intensities that are numbers, or an error of one line.
+//! What the readers of lamps' files promise of any bytes: intensities that are numbers, or an error of one
+//! line.
 
 use catseye_photometry::Error;
 use catseye_photometry::lamp::{Axis, Lamp};
